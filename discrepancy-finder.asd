@@ -1,0 +1,101 @@
+;;;; Systems of discrepancy-finder.
+;;;;
+;;;; One secondary system a layer; a layer names the layers it uses, so that a forbidden
+;;;; dependency does not load.  The JSON library is chosen here: cl-json where ASDF finds it,
+;;;; yason where not; where neither is installed cl-json is asked for, so that Quicklisp
+;;;; fetches it.  Only src/json/json.lisp knows the outcome.
+
+(defpackage #:discrepancy-finder-system
+  (:use #:cl)
+  (:export #:shared-library-source))
+(in-package #:discrepancy-finder-system)
+
+(defclass asdf-user::shared-library-source (asdf:source-file)
+  ((type :initform "cpp"))
+  (:documentation "A C++ file that the C++ compiler turns into build/libNAME.so beside this file.
+The environment variable CXX names another compiler than g++."))
+
+(defmethod asdf:output-files ((operation asdf:compile-op) (file asdf-user::shared-library-source))
+  ;; The second value keeps ASDF from translating the path into a cache folder: the
+  ;; executable image looks for the library beside itself, in build/.
+  (values (list (asdf:system-relative-pathname
+                 "discrepancy-finder"
+                 (format nil "build/lib~a.so" (asdf:component-name file))))
+          t))
+
+(defmethod asdf:perform ((operation asdf:compile-op) (file asdf-user::shared-library-source))
+  (let* ((target (asdf:output-file operation file))
+         (temporary (make-pathname :type "tmp" :defaults target)))
+    (ensure-directories-exist target)
+    (uiop:run-program
+     (list (or (uiop:getenvp "CXX") "g++")
+           "-std=c++17" "-O2" "-Wall" "-Wextra" "-fPIC" "-shared" "-fvisibility=hidden"
+           "-DBT_USE_DOUBLE_PRECISION" "-isystem" "/usr/include/bullet"
+           (uiop:native-namestring (asdf:component-pathname file))
+           "-o" (uiop:native-namestring temporary)
+           "-lBulletDynamics-float64" "-lBulletCollision-float64" "-lLinearMath-float64")
+     :output t :error-output :output)
+    (rename-file temporary target)))
+
+(defmethod asdf:perform ((operation asdf:load-op) (file asdf-user::shared-library-source))
+  nil)
+
+(defun json-library ()
+  (cond ((asdf:find-system "cl-json" nil) "cl-json")
+        ((asdf:find-system "yason" nil) "yason")
+        (t "cl-json")))
+
+(asdf:defsystem "discrepancy-finder"
+  :description "Finds out where a Discrete Event Calculus model of a robot's world is wrong."
+  :version "0.1.0"
+  :license "MIT"
+  :depends-on ("discrepancy-finder/discrepancy" "discrepancy-finder/json"
+               "alexandria" "command-line-arguments")
+  :pathname "src/interface/"
+  :serial t
+  :components ((:file "package"))
+  :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
+
+(asdf:defsystem "discrepancy-finder/geometry"
+  :description "Poses in space."
+  :pathname "src/geometry/"
+  :serial t
+  :components ((:file "package") (:file "pose")))
+
+(asdf:defsystem "discrepancy-finder/foreign"
+  :description "Finding, opening and closing shared libraries; float traps."
+  :depends-on ("cffi")
+  :pathname "src/foreign/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "library") (:file "float-traps")))
+
+(asdf:defsystem "discrepancy-finder/json"
+  :description "JSON text in and out, doubles bit-exact."
+  :depends-on (#.(json-library))
+  :pathname "src/json/"
+  :serial t
+  :components ((:file "package") (:file "json")))
+
+(asdf:defsystem "discrepancy-finder/z3"
+  :description "The SMT solver Z3 through its C API."
+  :depends-on ("discrepancy-finder/foreign" "cffi" "bordeaux-threads")
+  :pathname "src/z3/"
+  :serial t
+  :components ((:file "package")))
+
+(asdf:defsystem "discrepancy-finder/bullet"
+  :description "Rigid-body worlds of the Bullet physics library, through a C++ shim with a C API."
+  :depends-on ("discrepancy-finder/foreign" "discrepancy-finder/geometry" "cffi")
+  :pathname "bullet-ffi/"
+  :serial t
+  :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
+               (:file "package")))
+
+(asdf:defsystem "discrepancy-finder/tests"
+  :description "The test suites, one a layer."
+  :depends-on ("discrepancy-finder" "fiveam")
+  :pathname "tests/"
+  :serial t
+  :components ((:file "package"))
+  :perform (asdf:test-op (operation system)
+             (uiop:symbol-call '#:discrepancy-finder.tests '#:run-all-tests)))
