@@ -91,6 +91,40 @@ The environment variable CXX names another compiler than g++."))
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package")))
 
+(asdf:defsystem "discrepancy-finder/source"
+  :description "Files of Lisp forms, read with care and with positions."
+  :pathname "src/source/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "read")))
+
+(asdf:defsystem "discrepancy-finder/event-calculus"
+  :description "Theories of the Discrete Event Calculus."
+  :depends-on ("discrepancy-finder/z3" "discrepancy-finder/source")
+  :pathname "src/event-calculus/"
+  :serial t
+  :components ((:file "package") (:file "names") (:file "conditions") (:file "theory")
+               (:file "formula") (:file "state-constraints") (:file "grounding")
+               (:file "progression")))
+
+(asdf:defsystem "discrepancy-finder/plan-language"
+  :description "CPL, the plan language of CRAM."
+  :depends-on ("discrepancy-finder/geometry" "discrepancy-finder/source" "alexandria")
+  :pathname "src/plan-language/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "failures") (:file "designators")
+               (:file "executive") (:file "plans")))
+
+(asdf:defsystem "discrepancy-finder/symbolic-execution"
+  :description "Plans on all inputs at once, along the paths that a theory allows."
+  :depends-on ("discrepancy-finder/event-calculus" "discrepancy-finder/plan-language" "alexandria"
+               (:require "sb-cltl2"))
+  :pathname "src/symbolic-execution/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "actions") (:file "path")
+               (:file "scope") (:file "evaluator") (:file "functions")
+               (:file "special-operators") (:file "perform") (:file "trace")
+               (:file "exploration")))
+
 (asdf:defsystem "discrepancy-finder/tests"
   :description "The test suites, one a layer."
   :depends-on ("discrepancy-finder" "fiveam")

@@ -25,7 +25,7 @@
 (defmethod make-load-form ((pose pose) &optional environment)
   (make-load-form-saving-slots pose :environment environment))
 
-(defun make-pose (x y &optional (z 0d0) &key (roll 0d0) (pitch 0d0) (yaw 0d0))
+(defun make-pose (x y z &key (roll 0d0) (pitch 0d0) (yaw 0d0))
   "Return the pose at position X, Y, Z (m), turned by ROLL, PITCH and YAW (rad) about the fixed
 axes x, y and z, in this order, as URDF has it.  The arguments are reals."
   (let* ((r (/ (float roll 1d0) 2)) (p (/ (float pitch 1d0) 2)) (w (/ (float yaw 1d0) 2))

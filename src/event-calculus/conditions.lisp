@@ -1,0 +1,56 @@
+(in-package #:discrepancy-finder.event-calculus)
+
+(define-condition event-calculus-error (error)
+  ()
+  (:documentation "Root of the errors in theories and in questions to them."))
+
+(define-condition theory-error (event-calculus-error)
+  ((theory :initarg :theory :reader theory-error-theory :documentation "The theory's name.")
+   (axiom :initarg :axiom :initform nil :reader theory-error-axiom
+          :documentation "What is wrong within the theory, as a string such as \"axiom move-leaves\",
+or NIL.")
+   (form :initarg :form :initform nil :reader theory-error-form
+         :documentation "The sub-form to blame, or NIL.")
+   (reason :initarg :reason :reader theory-error-reason
+           :documentation "What is wrong, as a string without a full stop.")
+   (position :initarg :position :initform nil :reader theory-error-position
+             :documentation "The source position of the axiom, or NIL."))
+  (:report (lambda (condition stream)
+             (with-slots (theory axiom form reason position) condition
+               (format stream "~@[~a: ~]theory ~a~@[, ~a~]~@[, in ~a~]: ~a."
+                       (and position (princ-to-string position))
+                       (name-text theory) axiom (and form (formula-text form)) reason))))
+  (:documentation "Signaled when a theory is not well-formed.  The report names file and line where
+known, the axiom, the sub-form and what was expected."))
+
+(define-condition theory-not-found (event-calculus-error)
+  ((name :initarg :name :reader theory-not-found-name :documentation "The name in question."))
+  (:report (lambda (condition stream)
+             (format stream "There is no theory named ~a."
+                     (name-text (theory-not-found-name condition)))))
+  (:documentation "Signaled when a theory is asked for that was never defined."))
+
+(define-condition state-constraint-not-found (event-calculus-error)
+  ((name :initarg :name :reader state-constraint-not-found-name
+         :documentation "The name in question.")
+   (theory :initarg :theory :reader state-constraint-not-found-theory
+           :documentation "The theory that has no such constraint.")
+   (known :initarg :known :initform '() :reader state-constraint-not-found-known
+          :documentation "The names of the constraints that the theory has."))
+  (:report (lambda (condition stream)
+             (with-slots (name theory known) condition
+               (format stream "Theory ~a has no state constraint~@[ named ~a~]~@[; it has ~{~a~^, ~}~]."
+                       (name-text theory) (and name (name-text name))
+                       (mapcar #'name-text known)))))
+  (:documentation "Signaled when a state constraint is asked for that was never defined."))
+
+(define-condition unknown-atom (event-calculus-error)
+  ((atom :initarg :atom :reader unknown-atom-atom :documentation "The ground atom, a list.")
+   (kind :initarg :kind :reader unknown-atom-kind
+         :documentation "What it should be: \"fluent\" or \"event\".")
+   (theory :initarg :theory :reader unknown-atom-theory :documentation "The theory's name."))
+  (:report (lambda (condition stream)
+             (with-slots (atom kind theory) condition
+               (format stream "~a is no ground ~a of theory ~a."
+                       (if (stringp atom) atom (formula-text atom)) kind (name-text theory)))))
+  (:documentation "Signaled when a ground fluent or event is named that the theory does not have."))

@@ -1,0 +1,64 @@
+;;;; Names and ground atoms.
+;;;;
+;;;; The names of a theory are compared by their characters, whatever package they were read in, so
+;;;; that a theory can be used from any package: inside the layer they are keywords.  A ground atom
+;;;; is a list of keywords, (:robot-in :r1), never a concatenated string, so that different atoms
+;;;; cannot be mistaken for each other.  In texts a name without lower-case letters is printed in
+;;;; lower case; others stand between bars, as Lisp prints them.
+
+(in-package #:discrepancy-finder.event-calculus)
+
+(defun name-keyword (name)
+  "Return the keyword for NAME, a symbol of any package."
+  (if (keywordp name) name (intern (symbol-name name) :keyword)))
+
+(defun plain-name-p (string)
+  (and (plusp (length string))
+       (notany (lambda (character)
+                 (or (lower-case-p character)
+                     (find character "()|\\\"'`,;# ")
+                     (not (graphic-char-p character))))
+               string)))
+
+(defun name-text (name)
+  "Return the text for NAME, a symbol: in lower case if that can be read back."
+  (let ((string (symbol-name name)))
+    (if (plain-name-p string)
+        (string-downcase string)
+        (with-output-to-string (stream)
+          (write-char #\| stream)
+          (loop for character across string
+                do (when (find character "|\\") (write-char #\\ stream))
+                   (write-char character stream))
+          (write-char #\| stream)))))
+
+(defun atom-text (atom)
+  "Return the text of the ground atom ATOM, a list of symbols, such as \"(robot-in r1)\"."
+  (format nil "(~{~a~^ ~})" (mapcar #'name-text atom)))
+
+(defun text-atom (text candidates)
+  "Return the ground atom among the list CANDIDATES whose text is TEXT, or NIL."
+  (find text candidates :key #'atom-text :test #'string=))
+
+;;; Variables are symbols whose name begins with a question mark.  A variable's sort is its name
+;;; without the question mark and trailing digits.
+
+(defun variable-p (thing)
+  (and (symbolp thing)
+       (let ((name (symbol-name thing)))
+         (and (> (length name) 1) (char= (char name 0) #\?)))))
+
+(defun variable-sort-name (variable)
+  (name-keyword
+   (make-symbol (string-right-trim "0123456789" (subseq (symbol-name variable) 1)))))
+
+(defun time-variable-p (thing)
+  (and (variable-p thing) (eq (variable-sort-name thing) :time)))
+
+(defun formula-text (form)
+  "Return the text of FORM, a tree of symbols and numbers, on one line."
+  (typecase form
+    (null "()")
+    (symbol (name-text form))
+    (cons (format nil "(~{~a~^ ~})" (mapcar #'formula-text form)))
+    (t (princ-to-string form))))

@@ -1,0 +1,161 @@
+;;;; Plan failures: what goes wrong in the world, and what a plan does about it.
+;;;;
+;;;; A failure is a condition below PLAN-FAILURE, which is a serious condition and not an error, as
+;;;; in CRAM.  FAIL signals one; WITH-FAILURE-HANDLING handles it before the stack is unwound, and
+;;;; its handlers may RETRY.  The macros expand into lambdas and calls of ordinary functions, so
+;;;; that compiled and symbolically executed plans share one meaning.
+
+(in-package #:discrepancy-finder.plan-language)
+
+;;; Failure classes, named as in CRAM's package cram-common-failures.
+
+(define-condition plan-failure (serious-condition)
+  ()
+  (:documentation "Root of all failures that plans signal and handle."))
+
+(define-condition simple-plan-failure (plan-failure simple-condition)
+  ()
+  (:default-initargs :format-control "Plan failure.")
+  (:documentation "A failure that is described by a format control and its arguments."))
+
+(define-condition low-level-failure (plan-failure)
+  ((description :initarg :description :initform "" :reader low-level-failure-description
+                :documentation "What happened, as a string."))
+  (:report (lambda (condition stream)
+             (format stream "~(~a~)~@[: ~a~]"
+                     (type-of condition)
+                     (let ((text (low-level-failure-description condition)))
+                       (and (string/= text "") text)))))
+  (:documentation "Root of the failures that process modules signal."))
+
+(defmacro define-failures (&rest clauses)
+  "Define condition classes; a clause is (name parent documentation)."
+  `(progn
+     ,@(loop for (name parent documentation) in clauses
+             collect `(define-condition ,name (,parent) () (:documentation ,documentation)))))
+
+(define-failures
+  (manipulation-low-level-failure low-level-failure "A failure of an arm or a gripper.")
+  (manipulation-goal-not-reached manipulation-low-level-failure
+    "The arm stopped before its goal.")
+  (manipulation-pose-unreachable manipulation-low-level-failure
+    "No configuration of the arm reaches the pose.")
+  (gripper-low-level-failure manipulation-low-level-failure "A failure of a gripper.")
+  (gripper-closed-completely gripper-low-level-failure
+    "The gripper closed and there was nothing between its fingers.")
+  (gripper-goal-not-reached gripper-low-level-failure "The gripper stopped before its goal.")
+  (navigation-low-level-failure low-level-failure "A failure of the base.")
+  (navigation-pose-unreachable navigation-low-level-failure "The base cannot get to the pose.")
+  (navigation-goal-not-reached navigation-low-level-failure "The base stopped before its goal.")
+  (perception-low-level-failure low-level-failure "A failure of perception.")
+  (perception-object-not-found perception-low-level-failure
+    "Nothing that matches the designator is seen."))
+
+(defun fail (&rest arguments)
+  "Signal a plan failure; never returns.  Without ARGUMENTS it is a SIMPLE-PLAN-FAILURE, with a
+string and arguments for it one with this text, with a class name and initargs one of this class,
+with a condition just that."
+  (let ((datum (first arguments)))
+    (error (etypecase datum
+             (null (make-condition 'simple-plan-failure))
+             (string (make-condition 'simple-plan-failure :format-control datum
+                                                          :format-arguments (rest arguments)))
+             (symbol (apply #'make-condition datum (rest arguments)))
+             (condition datum)))))
+
+;;; Failure handling
+
+(defun retry ()
+  "Inside a handler of WITH-FAILURE-HANDLING, begin its body again.  Anywhere else this signals
+MALFORMED-PLAN-FORM."
+  (error 'malformed-plan-form :form '(retry)
+                              :expected "an enclosing handler of with-failure-handling"))
+
+(defun call-with-failure-handlers (handlers body)
+  "Call BODY; each condition signaled meanwhile is handed to every handler of the list HANDLERS of
+(type . function) whose type it has, in order.  One that returns has declined."
+  (handler-bind ((condition (lambda (condition)
+                              (loop for (type . handler) in handlers
+                                    when (typep condition type)
+                                      do (funcall handler condition)))))
+    (funcall body)))
+
+(defun check-failure-clause (clause form)
+  (unless (and (consp clause) (consp (rest clause)) (listp (second clause))
+               (<= (length (second clause)) 1))
+    (error 'malformed-plan-form :form form :expected "a list of clauses (class (variable) form*)")))
+
+(defmacro with-failure-handling (clauses &body body)
+  "Evaluate BODY and return its values.  CLAUSES are (type ([variable]) form*): when a condition of
+TYPE, a class or (or class*), is signaled in BODY, the forms run before the stack is unwound.  They
+may call RETRY, leave by RETURN, or end normally: then the next clause that fits and after it the
+outer handlers have their turn.  Semantics are CRAM's."
+  (let ((again (gensym "AGAIN")))
+    `(block nil
+       (tagbody
+          ,again
+          (return
+            (call-with-failure-handlers
+             (list ,@(loop for clause in clauses
+                           do (check-failure-clause clause `(with-failure-handling ,clauses))
+                           collect (destructuring-bind (type (&optional (variable (gensym)))
+                                                        &body handler) clause
+                                     `(cons ',type
+                                            (lambda (,variable)
+                                              (declare (ignorable ,variable))
+                                              (flet ((retry () (go ,again)))
+                                                (declare (ignorable #'retry))
+                                                ,@handler))))))
+             (lambda () ,@body)))))))
+
+;;; Retry counters
+
+(defstruct (retry-counter (:constructor make-retry-counter (initial count)))
+  "How often something may still be tried again; INITIAL is called for the number at a reset."
+  (initial #'identity :type function :read-only t)
+  (count 0 :type integer))
+
+(defun take-retry (counter)
+  "Count one retry of COUNTER and return true, or return NIL if none is left."
+  (when (plusp (retry-counter-count counter))
+    (decf (retry-counter-count counter))
+    t))
+
+(defun restart-counter (counter)
+  (setf (retry-counter-count counter) (funcall (retry-counter-initial counter))))
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defun counter-variable (name)
+    "Return the symbol under which the retry counter NAME is known: not NAME itself, which the plan
+may use for a variable of its own."
+    (intern (format nil "RETRY-COUNTER ~a" (symbol-name name)) (symbol-package name))))
+
+(defmacro with-retry-counters (bindings &body body)
+  "Evaluate BODY with retry counters: BINDINGS are (name number).  In BODY, (do-retry name form*)
+evaluates the forms and counts down while retries are left and returns NIL afterwards,
+(get-counter name) returns what is left, (reset-counter name) starts again."
+  (let ((variables (loop for nil in bindings collect (gensym "COUNTER"))))
+    `(let ,(loop for variable in variables
+                 for (nil number) in bindings
+                 collect `(,variable (make-retry-counter (lambda () ,number) ,number)))
+       (macrolet ((do-retry (name &body forms)
+                    `(when (take-retry ,(counter-variable name)) ,@forms))
+                  (get-counter (name) `(retry-counter-count ,(counter-variable name)))
+                  (reset-counter (name) `(restart-counter ,(counter-variable name))))
+         (symbol-macrolet ,(loop for variable in variables
+                                 for (name nil) in bindings
+                                 collect `(,(counter-variable name) ,variable))
+           ,@body)))))
+
+(macrolet ((define-outside (name lambda-list documentation)
+             `(defmacro ,name (&whole form ,@lambda-list)
+                ,documentation
+                (declare (ignore ,@(remove '&body lambda-list)))
+                (error 'malformed-plan-form
+                       :form form :expected "an enclosing with-retry-counters"))))
+  (define-outside do-retry (name &body forms)
+    "Inside WITH-RETRY-COUNTERS, evaluate FORMS while the counter NAME has retries left.")
+  (define-outside get-counter (name)
+    "Inside WITH-RETRY-COUNTERS, return the number of retries that the counter NAME has left.")
+  (define-outside reset-counter (name)
+    "Inside WITH-RETRY-COUNTERS, give the counter NAME its initial number of retries again."))

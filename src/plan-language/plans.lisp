@@ -1,0 +1,90 @@
+;;;; Plans are functions whose source is kept.
+;;;;
+;;;; DEF-CRAM-FUNCTION and DEF-TOP-LEVEL-CRAM-FUNCTION define a Lisp function, compiled by SBCL, and
+;;;; record lambda list, body and source position under its name: FIND-PLAN returns the record, from
+;;;; which the symbolic evaluator works.  LOAD-PLAN loads a file of plans.
+
+(in-package #:discrepancy-finder.plan-language)
+
+(defstruct (plan (:copier nil))
+  "A plan's name and source."
+  (name nil :type symbol :read-only t)
+  (lambda-list '() :type list :read-only t)
+  (body '() :type list :read-only t)
+  (documentation nil :type (or null string) :read-only t)
+  (top-level-p nil :type boolean :read-only t)
+  (position nil :type (or null source:source-position) :read-only t))
+
+(defmethod print-object ((plan plan) stream)
+  (print-unreadable-object (plan stream :type t)
+    (format stream "~(~a~)~@[ at ~a~]" (plan-name plan)
+            (and (plan-position plan) (princ-to-string (plan-position plan))))))
+
+(defvar *plans* (make-hash-table :test 'eq)
+  "The plan of each name.")
+
+(defun find-plan (name)
+  "Return the PLAN named by the symbol NAME.  Signals PLAN-NOT-FOUND."
+  (or (gethash name *plans*)
+      (error 'plan-not-found :name name)))
+
+(defun plan-source (name)
+  "Return the PLAN named by the symbol NAME, or NIL if it names none."
+  (values (gethash name *plans*)))
+
+(defun record-plan (plan)
+  (setf (gethash (plan-name plan) *plans*) plan))
+
+(defvar *in-top-level* nil
+  "True while a top-level runs.")
+
+(defun call-in-top-level (function)
+  (when *in-top-level*
+    (error "top-level calls cannot be nested."))
+  (let ((*in-top-level* t))
+    (funcall function)))
+
+(defmacro top-level (&body body)
+  "Evaluate BODY as a program of its own and return its values.  Top-levels cannot be nested."
+  `(call-in-top-level (lambda () ,@body)))
+
+(defmacro seq (&body body)
+  "Evaluate the forms of BODY one after the other; return the values of the last."
+  `(progn ,@body))
+
+(defun split-body (body)
+  "Return the forms, the declarations and the documentation string of the function body BODY."
+  (alexandria:parse-body body :documentation t))
+
+(defun definition (form name lambda-list body top-level-p)
+  (multiple-value-bind (forms declarations documentation) (split-body body)
+    `(progn
+       (defun ,name ,lambda-list
+         ,@(and documentation (list documentation))
+         ,@declarations
+         ,(if top-level-p `(top-level ,@forms) `(progn ,@forms)))
+       (record-plan (make-plan :name ',name :lambda-list ',lambda-list
+                               :body '(,@declarations
+                                       ,@(if top-level-p `((top-level ,@forms)) forms))
+                               :documentation ,documentation :top-level-p ,top-level-p
+                               :position (source:form-position ',form)))
+       ',name)))
+
+(defmacro def-cram-function (&whole form name lambda-list &body body)
+  "Define NAME as a plan: a function that other plans call.  Its source is kept for FIND-PLAN."
+  (definition form name lambda-list body nil))
+
+(defmacro def-top-level-cram-function (&whole form name lambda-list &body body)
+  "Define NAME as a plan that runs in a TOP-LEVEL of its own.  Its source is kept for FIND-PLAN."
+  (definition form name lambda-list body t))
+
+(defun load-plan (file)
+  "Load FILE, a file of plan definitions read in the package DISCREPANCY-FINDER-USER, and return
+the list of the plans that it defines, in their order.  Signals SOURCE-ERROR, which names file and
+line, if it cannot be read or loaded."
+  (let ((before (alexandria:hash-table-values *plans*)))
+    (source:load-source file :package '#:discrepancy-finder-user)
+    (sort (set-difference (alexandria:hash-table-values *plans*) before)
+          #'< :key (lambda (plan)
+                     (let ((position (plan-position plan)))
+                       (if position (source:source-position-line position) 0))))))

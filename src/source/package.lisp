@@ -1,0 +1,12 @@
+(defpackage #:discrepancy-finder.source
+  (:documentation "Lisp source files read with care: nothing is evaluated by the reader, and each
+form knows its file and line.")
+  (:use #:cl)
+  (:export
+   ;; positions
+   #:source-position #:source-position-file #:source-position-line #:form-position
+   ;; reading
+   #:read-source #:load-source
+   ;; conditions
+   #:source-error #:source-error-file #:source-error-line #:source-error-reason
+   #:condition-sentence))

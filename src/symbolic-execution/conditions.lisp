@@ -1,0 +1,48 @@
+(in-package #:discrepancy-finder.symbolic-execution)
+
+(define-condition symbolic-execution-error (error)
+  ()
+  (:documentation "Root of the errors of symbolic execution."))
+
+(define-condition unsupported-form (symbolic-execution-error)
+  ((form :initarg :form :reader unsupported-form-form :documentation "The form, or its operator.")
+   (reason :initarg :reason :reader unsupported-form-reason
+           :documentation "Why it cannot be evaluated, as a string.")
+   (position :initarg :position :initform nil :reader unsupported-form-position
+             :documentation "Its source position, or NIL."))
+  (:report (lambda (condition stream)
+             (with-slots (form reason position) condition
+               (let ((*print-length* 6) (*print-level* 3) (*print-pretty* nil))
+                 (format stream "~@[~a: ~]The symbolic evaluator cannot evaluate ~s: ~a."
+                         (and position (princ-to-string position)) form reason)))))
+  (:documentation "Signaled when a plan contains a form that the symbolic evaluator does not know."))
+
+(define-condition nondeterministic-plan (symbolic-execution-error)
+  ((plan :initarg :plan :reader nondeterministic-plan-plan :documentation "The plan's name.")
+   (expected :initarg :expected :reader nondeterministic-plan-expected
+             :documentation "The decision that was recorded, as a string.")
+   (found :initarg :found :reader nondeterministic-plan-found
+          :documentation "The decision that was met, as a string."))
+  (:report (lambda (condition stream)
+             (with-slots (plan expected found) condition
+               (format stream "The plan ~(~a~) is not deterministic: run again, it met ~a where it ~
+                               had met ~a."
+                       plan found expected))))
+  (:documentation "Signaled when a replay of a path meets another decision than the recorded one."))
+
+(define-condition action-problem (symbolic-execution-error)
+  ((designator :initarg :designator :reader action-problem-designator
+               :documentation "The designator in question.")
+   (reason :initarg :reason :reader action-problem-reason
+           :documentation "What is wrong, as a string."))
+  (:report (lambda (condition stream)
+             (format stream "~a: ~a." (action-problem-designator condition)
+                     (action-problem-reason condition))))
+  (:documentation "Signaled when an action binding cannot say what a designator means in its
+theory."))
+
+(define-condition domain-not-found (symbolic-execution-error)
+  ((name :initarg :name :reader domain-not-found-name :documentation "The name in question."))
+  (:report (lambda (condition stream)
+             (format stream "There is no domain named ~(~a~)." (domain-not-found-name condition))))
+  (:documentation "Signaled when a domain is asked for that was never defined."))

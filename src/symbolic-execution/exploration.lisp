@@ -1,0 +1,189 @@
+;;;; Exploration: all paths of a plan, by replay.
+;;;;
+;;;; An EXPLORATION hands out traces one by one (NEXT-TRACE).  It keeps a stack of prefixes; for
+;;;; each it runs the plan again from the start, repeating the prefix's decisions, and pushes the
+;;;; alternatives met behind it.  Between runs everything is as before: writes to global variables
+;;;; are undone, random state and gensym counter are the same, output is dropped.  EXPLORE-PLAN
+;;;; collects all traces.
+
+(in-package #:discrepancy-finder.symbolic-execution)
+
+(defclass exploration ()
+  ((plan :initarg :plan :reader exploration-plan :documentation "The plan, a PLAN.")
+   (domain :initarg :domain :reader exploration-domain)
+   (constraint :initarg :constraint :reader exploration-constraint)
+   (arguments :initarg :arguments :reader exploration-arguments
+              :documentation "List of (parameter type), in the order of the lambda list.")
+   (max-paths :initarg :max-paths :reader exploration-max-paths)
+   (max-steps :initarg :max-steps :reader exploration-max-steps)
+   (context :initarg :context :reader exploration-context)
+   (solver :initarg :solver :reader exploration-solver)
+   (formula :initarg :formula :reader exploration-formula
+            :documentation "The constraint's ground formula.")
+   (pending :initform (list '()) :accessor exploration-pending
+            :documentation "The prefixes still to be run.")
+   (seen :initform (make-hash-table :test 'equal) :reader exploration-seen
+         :documentation "The texts of the traces handed out.")
+   (traces :initform '() :accessor exploration-found)
+   (paths :initform 0 :accessor exploration-paths
+          :documentation "The number of runs.")
+   (dead-ends :initform 0 :accessor exploration-dead-ends
+              :documentation "The number of paths that end because the theory allows no outcome.")
+   (gaps :initform '() :accessor exploration-gaps
+         :documentation "What was not explored: a list of sentences.")
+   (ticks :initform 0 :accessor exploration-ticks))
+  (:documentation "A search for the traces of a plan on which a state constraint comes true."))
+
+(defun exploration-traces (exploration)
+  "Return the list of the traces that EXPLORATION has found so far, in order."
+  (reverse (exploration-found exploration)))
+
+(defun exploration-checks (exploration)
+  "Return the number of questions that EXPLORATION has put to Z3."
+  (z3:check-count (exploration-context exploration)))
+
+(defun exploration-seconds (exploration)
+  "Return the seconds spent in EXPLORATION so far, and of them the seconds in Z3."
+  (values (/ (exploration-ticks exploration) (float internal-time-units-per-second 1d0))
+          (z3:check-seconds (exploration-context exploration))))
+
+(defun exploration-complete-p (exploration)
+  "Return true if EXPLORATION has run every path and nothing was cut off."
+  (and (null (exploration-pending exploration)) (null (exploration-gaps exploration))))
+
+(defmethod print-object ((exploration exploration) stream)
+  (print-unreadable-object (exploration stream :type t)
+    (format stream "of ~(~a~): ~d trace~:p on ~d path~:p, ~:[incomplete~;complete~]"
+            (plan:plan-name (exploration-plan exploration))
+            (length (exploration-found exploration)) (exploration-paths exploration)
+            (exploration-complete-p exploration))))
+
+(defmethod describe-object ((exploration exploration) stream)
+  (format stream "~a~%" exploration)
+  (loop for trace in (exploration-traces exploration)
+        for number from 1
+        do (format stream "  trace ~d: initially~{ ~a~}~%" number
+                   (mapcar #'ec:atom-text (ec:state-fluents (trace-initial-state trace))))
+           (loop for step in (trace-steps trace)
+                 do (format stream "    ~a: ~a~%" (step-designator step) (step-text step)))
+           (format stream "    finally~{ ~a~}~%"
+                   (mapcar #'ec:atom-text (ec:state-fluents (trace-final-state trace)))))
+  (format stream "  ~d dead end~:p, ~d check~:p by Z3~{~%  not explored: ~a~}~%"
+          (exploration-dead-ends exploration) (exploration-checks exploration)
+          (exploration-gaps exploration)))
+
+(defun symbolic-arguments (plan arguments)
+  "Return ARGUMENTS, a list of (parameter type), in the order of PLAN's lambda list.  Signals
+UNSUPPORTED-FORM for another type than boolean and for parameters that do not fit."
+  (let ((required (alexandria:parse-ordinary-lambda-list (plan:plan-lambda-list plan))))
+    (unless (alexandria:set-equal required (mapcar #'first arguments) :test #'string=)
+      (error 'unsupported-form
+             :form (list* (plan:plan-name plan) (plan:plan-lambda-list plan))
+             :reason (format nil "it needs a type for each of its required parameters, and got~
+                                  ~:[ none~;~:*~{ ~(~a~)~^,~}~]" (mapcar #'first arguments))))
+    (loop for parameter in required
+          for (nil type) = (assoc parameter arguments :test #'string=)
+          do (unless (and (symbolp type) (string= type "BOOLEAN"))
+               (error 'unsupported-form :form (list parameter type)
+                                        :reason "only parameters of type boolean can be symbolic"))
+          collect (list parameter type))))
+
+(defun make-exploration (plan domain &key constraint arguments (max-paths 10000) (max-steps 1000))
+  "Return an EXPLORATION of the plan named PLAN (a symbol) in DOMAIN (an ACTION-THEORY or its name).
+CONSTRAINT is a state constraint or its name; with NIL the theory's only one.  ARGUMENTS is a list
+of (parameter boolean).  MAX-PATHS and MAX-STEPS (performs on a path) bound the search.  Signals
+PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
+  (let* ((plan (plan:find-plan plan))
+         (domain (if (typep domain 'action-theory) domain (find-action-theory domain)))
+         (constraint (if (ec:state-constraint-p constraint)
+                         constraint
+                         (ec:find-state-constraint constraint (action-theory-theory domain))))
+         (arguments (symbolic-arguments plan arguments))
+         (context (z3:make-context)))
+    (make-instance 'exploration
+                   :plan plan :domain domain :constraint constraint :arguments arguments
+                   :max-paths max-paths :max-steps max-steps :context context
+                   :solver (z3:make-solver context)
+                   :formula (ec:ground-formula (action-theory-ground domain)
+                                               (ec:state-constraint-formula constraint)))))
+
+(defun close-exploration (exploration)
+  "Release the Z3 context of EXPLORATION; its traces stay."
+  (z3:close-context (exploration-context exploration)))
+
+(defun run-plan-on (path function arguments)
+  "Call FUNCTION, the interpreted plan, with ARGUMENTS on PATH and note how the run ends."
+  (let ((*random-state* (sb-ext:seed-random-state 0))
+        (*gensym-counter* 0)
+        (*standard-output* (make-broadcast-stream))
+        (*path* path))
+    (unwind-protect
+         (catch path
+           (plan:with-executive (path)
+             (handler-case (progn (apply function arguments)
+                                  (setf (path-ending path) :finished))
+               (plan:plan-failure (failure)
+                 (setf (path-ending path) (type-of failure))))))
+      (undo-writes path))))
+
+(defun run-path (exploration prefix)
+  "Run the plan of EXPLORATION along PREFIX and return the trace of that path, or NIL."
+  (let* ((context (exploration-context exploration))
+         (solver (exploration-solver exploration))
+         (domain (exploration-domain exploration))
+         (state (ec:symbolic-state (action-theory-ground domain) context))
+         (propositions (loop for (parameter) in (exploration-arguments exploration)
+                             collect (z3:variable context (format nil "argument ~a" parameter))))
+         (path (make-path :plan (plan:plan-name (exploration-plan exploration)) :domain domain
+                          :solver solver :prefix prefix :states (list state)
+                          :max-steps (exploration-max-steps exploration))))
+    (loop for (nil . proposition) in (ec:initial-conditions state)
+          do (assume path proposition))
+    (when (or prefix (eq (z3:check solver) :sat))
+      (run-plan-on path (interpreted-plan (exploration-plan exploration))
+                   (mapcar #'make-symbolic-boolean propositions))
+      (dolist (alternative (path-alternatives path))
+        (push alternative (exploration-pending exploration)))
+      (case (path-ending path)
+        (:dead-end (incf (exploration-dead-ends exploration)))
+        (:too-many-steps
+         (pushnew (format nil "paths of more than ~d steps" (exploration-max-steps exploration))
+                  (exploration-gaps exploration) :test #'string=)))
+      (path-trace path (exploration-formula exploration)
+                  (ec:state-constraint-span (exploration-constraint exploration))
+                  propositions))))
+
+(defun next-path (exploration)
+  "Run the next pending path of EXPLORATION and return its trace, or NIL."
+  (let ((start (get-internal-real-time))
+        (solver (exploration-solver exploration)))
+    (incf (exploration-paths exploration))
+    (z3:push-scope solver)
+    (unwind-protect
+         (z3:with-released-terms ((exploration-context exploration))
+           (run-path exploration (pop (exploration-pending exploration))))
+      (z3:pop-scope solver)
+      (incf (exploration-ticks exploration) (- (get-internal-real-time) start)))))
+
+(defun next-trace (exploration)
+  "Return the next trace of EXPLORATION, or NIL if there are no more.  No trace is handed out
+twice.  Signals NONDETERMINISTIC-PLAN, UNSUPPORTED-FORM, SOLVER-UNKNOWN and what the plan signals."
+  (loop while (exploration-pending exploration)
+        do (when (>= (exploration-paths exploration) (exploration-max-paths exploration))
+             (pushnew (format nil "paths beyond the first ~d" (exploration-max-paths exploration))
+                      (exploration-gaps exploration) :test #'string=)
+             (return nil))
+           (let ((trace (next-path exploration)))
+             (when (and trace (not (gethash (trace-text trace) (exploration-seen exploration))))
+               (setf (gethash (trace-text trace) (exploration-seen exploration)) t)
+               (push trace (exploration-found exploration))
+               (return trace)))))
+
+(defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps)
+  "Return an EXPLORATION that has found every trace of PLAN in DOMAIN.  The options are those of
+MAKE-EXPLORATION."
+  (declare (ignore constraint arguments max-paths max-steps))
+  (let ((exploration (apply #'make-exploration plan domain (alexandria:remove-from-plist
+                                                            options :domain))))
+    (loop while (next-trace exploration))
+    exploration))

@@ -1,0 +1,27 @@
+(defpackage #:discrepancy-finder.symbolic-execution
+  (:documentation "Plans executed on all inputs at once, along every path that a theory allows.")
+  (:use #:cl)
+  (:local-nicknames (#:z3 #:discrepancy-finder.z3)
+                    (#:ec #:discrepancy-finder.event-calculus)
+                    (#:plan #:discrepancy-finder.plan-language)
+                    (#:source #:discrepancy-finder.source))
+  (:export
+   ;; action theories: what designators mean in a theory
+   #:action-theory #:action-theory-name #:action-theory-theory #:action-theory-ground
+   #:action-theory-actions #:define-action #:register-action #:region-of-pose #:region-of
+   #:action-binding #:find-action-binding #:find-action-theory
+   #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition
+   #:outcome-condition-proposition
+   ;; exploration
+   #:explore-plan #:make-exploration #:next-trace #:exploration #:exploration-traces
+   #:exploration-paths #:exploration-checks #:exploration-seconds #:exploration-complete-p
+   #:exploration-gaps #:exploration-dead-ends #:exploration-plan
+   ;; traces
+   #:trace-initial-state #:trace-steps #:trace-states #:trace-final-state #:execution-trace
+   #:trace-plan #:trace-text #:step-text #:states-along #:outcome-transition #:close-exploration #:exploration-domain #:exploration-constraint #:trace-arguments
+   #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
+   ;; symbolic values
+   #:symbolic-boolean #:symbolic-boolean-proposition
+   ;; conditions
+   #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
+   #:action-problem #:domain-not-found))

@@ -1,0 +1,53 @@
+;;;; PERFORM under symbolic execution: one step of the theory.
+;;;;
+;;;; The action binding of the designator lists its outcomes.  Those that the theory does not allow
+;;;; on this path are dropped; among the others one is decided for.  Its event progresses the
+;;;; state, and a failure is signaled in the plan.
+
+(in-package #:discrepancy-finder.symbolic-execution)
+
+(defstruct (trace-step (:conc-name step-) (:copier nil))
+  "One performed designator of a trace: its text, the event that happened (a list of keywords) or
+NIL, the outcome (:SUCCESS or a failure class) and the source position of the perform form."
+  (designator "" :type string :read-only t)
+  (event nil :type list :read-only t)
+  (outcome :success :type symbol :read-only t)
+  (position nil :read-only t))
+
+(defmethod print-object ((step trace-step) stream)
+  (print-unreadable-object (step stream :type t)
+    (format stream "~a -> ~(~a~)" (step-designator step) (step-outcome step))))
+
+(defun outcome-transition (domain state outcome)
+  "Return the state after OUTCOME of an action in STATE and the list of (axiom . proposition) that
+must be true for it."
+  (let ((event (and (outcome-event outcome)
+                    (ec:find-event (action-theory-ground domain) (outcome-event outcome))))
+        (condition (ec:holds (outcome-condition outcome) (list state))))
+    (multiple-value-bind (next conditions) (ec:progress state event)
+      (values next (if (eq condition t) conditions (acons nil condition conditions))))))
+
+(defun take-step (path designator position)
+  "Decide for an outcome of DESIGNATOR on PATH, add the step and return the outcome."
+  (let* ((state (first (path-states path)))
+         (description (princ-to-string designator))
+         (outcomes (action-outcomes (path-domain path) designator))
+         (options (loop for outcome in outcomes
+                        collect (multiple-value-bind (next conditions)
+                                    (outcome-transition (path-domain path) state outcome)
+                                  (cons (cons outcome next)
+                                        (z3:conjunction (mapcar #'cdr conditions)))))))
+    (destructuring-bind (outcome . next) (decide path description options)
+      (push (make-trace-step :designator description :event (outcome-event outcome)
+                             :outcome (outcome-name outcome) :position position)
+            (path-steps path))
+      (push next (path-states path))
+      outcome)))
+
+(defmethod plan:perform-with ((path path) designator position)
+  (when (>= (length (path-steps path)) (path-max-steps path))
+    (abandon path :too-many-steps))
+  (let ((outcome (take-step path designator position)))
+    (if (eq (outcome-name outcome) :success)
+        (outcome-value outcome)
+        (plan:fail (outcome-name outcome)))))
