@@ -53,7 +53,8 @@ The environment variable CXX names another compiler than g++."))
                "alexandria" "command-line-arguments")
   :pathname "src/interface/"
   :serial t
-  :components ((:file "package"))
+  :components ((:file "package") (:file "repl") (:file "command-line") (:file "subcommands")
+               (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
 (asdf:defsystem "discrepancy-finder/geometry"
@@ -67,21 +68,25 @@ The environment variable CXX names another compiler than g++."))
   :depends-on ("cffi")
   :pathname "src/foreign/"
   :serial t
-  :components ((:file "package") (:file "conditions") (:file "library") (:file "float-traps")))
+  :components ((:file "package") (:file "conditions") (:file "library") (:file "float-traps")
+               (:file "clock")))
 
 (asdf:defsystem "discrepancy-finder/json"
   :description "JSON text in and out, doubles bit-exact."
   :depends-on (#.(json-library))
   :pathname "src/json/"
   :serial t
-  :components ((:file "package") (:file "json")))
+  :components ((:file "package") (:file "conditions") (:file "syntax") (:file "json")
+               (:file "writer")))
 
 (asdf:defsystem "discrepancy-finder/z3"
   :description "The SMT solver Z3 through its C API."
-  :depends-on ("discrepancy-finder/foreign" "cffi" "bordeaux-threads")
+  :depends-on ("discrepancy-finder/foreign" "cffi")
   :pathname "src/z3/"
   :serial t
-  :components ((:file "package")))
+  :components ((:file "package") (:file "conditions") (:file "raw") (:file "text")
+               (:file "context") (:file "terms") (:file "interrupt") (:file "solver")
+               (:file "check")))
 
 (asdf:defsystem "discrepancy-finder/bullet"
   :description "Rigid-body worlds of the Bullet physics library, through a C++ shim with a C API."
@@ -124,6 +129,28 @@ The environment variable CXX names another compiler than g++."))
                (:file "scope") (:file "evaluator") (:file "functions")
                (:file "special-operators") (:file "perform") (:file "trace")
                (:file "exploration")))
+
+(asdf:defsystem "discrepancy-finder/projection"
+  :description "Plans executed in a physical world."
+  :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "xmls")
+  :pathname "src/projection/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "urdf") (:file "scene")
+               (:file "robot") (:file "projection") (:file "motion") (:file "navigation")
+               (:file "manipulation")))
+
+(asdf:defsystem "discrepancy-finder/discrepancy"
+  :description "The search for discrepancies between theory and projection."
+  :depends-on ("discrepancy-finder/symbolic-execution" "discrepancy-finder/projection"
+               "discrepancy-finder/json" "alexandria")
+  :pathname "src/discrepancy/"
+  :serial t
+  :components ((:file "package") (:file "statistics-conditions") (:file "conditions")
+               (:file "random") (:file "quantile") (:file "least-squares") (:file "confidence")
+               (:file "paper-rule") (:file "abstraction") (:file "define-abstraction")
+               (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
+               (:file "search") (:file "report") (:file "replay")
+               (:file "replay-file")))
 
 (asdf:defsystem "discrepancy-finder/tests"
   :description "The test suites, one a layer."

@@ -1,10 +1,64 @@
 (defpackage #:discrepancy-finder.discrepancy
   (:documentation "Where theory and projection meet: abstraction, sampling, confidence, comparison,
 search, replay.")
-  (:use #:cl)
+  (:use #:cl #:discrepancy-finder.geometry)
+  (:local-nicknames (#:z3 #:discrepancy-finder.z3)
+                    (#:ec #:discrepancy-finder.event-calculus)
+                    (#:plan #:discrepancy-finder.plan-language)
+                    (#:symbolic #:discrepancy-finder.symbolic-execution)
+                    (#:projection #:discrepancy-finder.projection)
+                    (#:source #:discrepancy-finder.source)
+                    (#:json #:discrepancy-finder.json)
+                    (#:foreign #:discrepancy-finder.foreign))
+  (:import-from #:discrepancy-finder.symbolic-execution #:next-trace)
   (:export
+   ;; domains: theory, scene, abstraction, action bindings
+   #:define-abstraction #:domain #:domain-scene #:domain-file #:domain-regions
+   #:domain-with-parameters #:load-domain
+   #:region #:region-name #:region-bounds #:inside-region-p
+   #:discrete-state #:observed-fluents
    ;; random numbers
-   #:philox #:unit-float #:content-hash
+   #:philox #:content-hash #:unit-float
+   ;; quantiles and regression
+   #:normal-cdf #:normal-quantile #:two-sided-z
+   #:least-squares #:fit #:fit-coefficients #:fit-residual-sum #:fit-rank #:fit-columns
+   ;; samples
+   #:parameter #:parameter-name #:parameter-min #:parameter-max
+   #:initial-parameters #:final-parameters #:draw-sample
+   #:sample #:sample-index #:sample-values #:sample-text
    ;; confidence
-   #:confidence-verdict #:confidence-rule #:make-confidence-rule #:verdict #:verdict-status #:verdict-reason
-   #:least-squares #:normal-quantile))
+   #:confidence-rule #:confidence-rule-confidence #:confidence-verdict
+   #:make-confidence-rule #:register-confidence-rule #:paper-rule #:paper-interval
+   #:parameter-sample #:make-parameter-sample #:parameter-sample-initial #:parameter-sample-final
+   #:parameter-region #:make-parameter-region #:parameter-region-initial-bounds
+   #:parameter-region-final-bounds
+   #:verdict #:verdict-status #:verdict-reason #:verdict-count #:verdict-intervals
+   #:verdict-coefficients #:verdict-sigma #:verdict-z
+   ;; runs and their judgement
+   #:execute-sample #:run-plan #:run #:run-steps #:run-initial-state #:run-final-state #:run-hash
+   #:run-seconds #:run-validity #:run-final-values #:run-ending
+   #:run-step #:run-step-designator #:run-step-outcome #:run-step-event #:run-step-state
+   #:run-step-failure #:run-text
+   #:judge-run #:judgement #:judgement-verdict #:judgement-divergence
+   #:divergence #:divergence-step #:divergence-fluents #:divergence-kind
+   ;; search
+   #:find-discrepancies #:search-result #:result-status #:result-reason #:result-discrepancy
+   #:result-discrepancies #:result-traces #:result-simulations #:result-iterations #:result-seed
+   #:result-exploration #:result-text #:result-symbolic-seconds #:result-simulation-seconds
+   #:trace-result #:trace-result-status #:trace-result-trace #:trace-result-verdict
+   #:trace-result-samples #:trace-result-rejected #:trace-result-reason
+   #:discrepancy #:discrepancy-plan #:discrepancy-trace #:discrepancy-sample #:discrepancy-run
+   #:discrepancy-judgement #:discrepancy-seed #:discrepancy-file #:discrepancy-text
+   #:discrepancy-parameters #:discrepancy-confirmed-p
+   ;; plans and domains by name
+   #:ensure-plan #:ensure-domain #:locate-file
+   ;; replay
+   #:save-discrepancy #:load-discrepancy #:replay #:replay-result #:replay-status
+   #:replay-discrepancy #:replay-text
+   ;; conditions and restarts
+   #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
+   #:discrepancy-found #:discrepancy-found-discrepancy
+   #:continue-search #:next-trace #:accept
+   #:invalid-confidence #:invalid-confidence-value
+   #:unknown-confidence-rule #:unknown-confidence-rule-name #:unknown-confidence-rule-known
+   #:invalid-argument))

@@ -7,5 +7,7 @@ closing it before an image is saved, and calling into it with the float traps of
    #:foreign-library-missing #:foreign-library-missing-name #:foreign-library-missing-candidates
    ;; libraries
    #:define-library #:open-libraries #:close-libraries #:library-directory
+   ;; time
+   #:monotonic-nanoseconds #:monotonic-seconds
    ;; float traps
    #:with-c-float-traps))

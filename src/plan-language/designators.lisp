@@ -64,6 +64,13 @@
 (defmethod print-object ((designator designator) stream)
   (write-string (description-text designator) stream))
 
+(defun designated-pose (thing)
+  "Return the pose that THING means: THING itself if it is a pose, the pose of a location
+designator, or else NIL."
+  (typecase thing
+    (pose thing)
+    (location-designator (designated-pose (desig-prop-value thing :pose)))))
+
 ;;; Reading (a ...) forms
 
 (defun variable-symbol-p (symbol)

@@ -21,7 +21,7 @@
    #:a #:an
    #:designator #:action-designator #:motion-designator #:object-designator
    #:location-designator #:make-designator #:designator-class-keyword
-   #:properties #:desig-prop-value #:desig-prop-values
+   #:properties #:desig-prop-value #:desig-prop-values #:designated-pose
    #:action #:motion #:object #:location
    ;; executive
    #:perform #:perform-with #:call-with-executive #:with-executive

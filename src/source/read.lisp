@@ -95,6 +95,11 @@ point are double floats.  Signals SOURCE-ERROR."
     (map-forms (lambda (form line) (declare (ignore line)) (push form forms)) file package)
     (nreverse forms)))
 
+(defgeneric self-explaining-p (condition)
+  (:documentation "Return true if the report of CONDITION, signaled while a file is loaded, needs no
+file and line in front of it.")
+  (:method (condition) (typep condition 'source-error)))
+
 (defun load-source (file &key (package *package*))
   "Read the forms of FILE in PACKAGE and evaluate each before the next is read, as LOAD does.
 Return the true name of FILE.  Signals SOURCE-ERROR, which names file and line, also for an error
@@ -104,7 +109,8 @@ that occurs while a form is evaluated."
      (lambda (form line)
        (handler-bind
            ((error (lambda (condition)
-                     (unless (typep condition 'source-error)
+                     ;; Errors that say file and line themselves pass.
+                     (unless (self-explaining-p condition)
                        (error 'source-error :file name :line line
                                             :reason (condition-sentence condition))))))
          ;; A plan file is code: this is its loader.

@@ -36,6 +36,16 @@ place of POSE, or NIL if none does."))
   (or (gethash (ec:name-keyword name) *domains*)
       (error 'domain-not-found :name name)))
 
+;;; Registry
+
+(defun register-action-theory (domain)
+  "Make DOMAIN the ACTION-THEORY of its name, and return it."
+  (setf (gethash (action-theory-name domain) *domains*) domain))
+
+(defun all-action-theories ()
+  "Return the list of all registered ACTION-THEORYs."
+  (alexandria:hash-table-values *domains*))
+
 ;;; Bindings
 
 (defstruct (action-binding (:copier nil))
@@ -123,6 +133,11 @@ same designators.  Signals DOMAIN-NOT-FOUND."
              :reason (format nil "~(~a~) is ~:[~s, which is no element of the theory~;~
                                   in no region~]" form (null value) value))))
 
+(defun place-region (domain place)
+  "Return the region of DOMAIN in which PLACE, a pose or a location designator, lies, or NIL."
+  (let ((pose (plan:designated-pose place)))
+    (and pose (region-of-pose domain pose))))
+
 (defmacro define-action ((class type) properties &body clauses)
   "Say what the designators of CLASS (motion or action) and TYPE mean in a domain.  PROPERTIES are
 bound to the designator's values of these keys.  CLAUSES:
@@ -132,7 +147,8 @@ bound to the designator's values of these keys.  CLAUSES:
   (:failure CLASS [:when formula] [:event (EVENT term*)])   how it may fail; :when defaults to the
                                 negation of :requires
   (:returns form)               the value of perform
-A term that is a property or a list is evaluated; there, (region-of pose) is the place of a pose."
+A term that is a property or a list is evaluated; there, (region-of x) is the
+region of a pose or of a location designator."
   (let* ((options (clause-options clauses))
          (domain (second (assoc :domain options)))
          (event (second (assoc :event options)))
@@ -155,7 +171,7 @@ A term that is a property or a list is evaluated; there, (region-of pose) is the
                        collect `(,property (plan:desig-prop-value
                                             designator ,(ec:name-keyword property))))
              (declare (ignorable ,@properties))
-             (flet ((region-of (pose) (region-of-pose domain pose)))
+             (flet ((region-of (place) (place-region domain place)))
                (declare (ignorable #'region-of))
                (list
                 (list :success ,(event-form event) ,(if requires (condition-form requires) t)
@@ -193,8 +209,8 @@ ACTION-PROBLEM if there is no binding for it or its arguments mean nothing in th
                                    (ec:parse-formula condition (action-theory-theory domain)
                                                      :blame (format nil "action ~a" designator))))))))
 
-(defun region-of (pose)
-  "Inside DEFINE-ACTION, return the element of the domain's theory that stands for the place of
-POSE, or NIL if none does.  Anywhere else this signals MALFORMED-PLAN-FORM."
-  (error 'plan:malformed-plan-form :form `(region-of ,pose)
+(defun region-of (place)
+  "Inside DEFINE-ACTION, return the element of the domain's theory that stands for PLACE, a pose or
+a location designator, or NIL if none does.  Anywhere else this signals MALFORMED-PLAN-FORM."
+  (error 'plan:malformed-plan-form :form `(region-of ,place)
                                    :expected "an enclosing define-action"))

@@ -31,7 +31,7 @@
               :documentation "The number of paths that end because the theory allows no outcome.")
    (gaps :initform '() :accessor exploration-gaps
          :documentation "What was not explored: a list of sentences.")
-   (ticks :initform 0 :accessor exploration-ticks))
+   (time :initform 0d0 :accessor exploration-time))
   (:documentation "A search for the traces of a plan on which a state constraint comes true."))
 
 (defun exploration-traces (exploration)
@@ -44,7 +44,7 @@
 
 (defun exploration-seconds (exploration)
   "Return the seconds spent in EXPLORATION so far, and of them the seconds in Z3."
-  (values (/ (exploration-ticks exploration) (float internal-time-units-per-second 1d0))
+  (values (exploration-time exploration)
           (z3:check-seconds (exploration-context exploration))))
 
 (defun exploration-complete-p (exploration)
@@ -155,7 +155,7 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
 
 (defun next-path (exploration)
   "Run the next pending path of EXPLORATION and return its trace, or NIL."
-  (let ((start (get-internal-real-time))
+  (let ((start (foreign:monotonic-seconds))
         (solver (exploration-solver exploration)))
     (incf (exploration-paths exploration))
     (z3:push-scope solver)
@@ -163,7 +163,7 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
          (z3:with-released-terms ((exploration-context exploration))
            (run-path exploration (pop (exploration-pending exploration))))
       (z3:pop-scope solver)
-      (incf (exploration-ticks exploration) (- (get-internal-real-time) start)))))
+      (incf (exploration-time exploration) (- (foreign:monotonic-seconds) start)))))
 
 (defun next-trace (exploration)
   "Return the next trace of EXPLORATION, or NIL if there are no more.  No trace is handed out

@@ -4,12 +4,14 @@
   (:local-nicknames (#:z3 #:discrepancy-finder.z3)
                     (#:ec #:discrepancy-finder.event-calculus)
                     (#:plan #:discrepancy-finder.plan-language)
-                    (#:source #:discrepancy-finder.source))
+                    (#:source #:discrepancy-finder.source)
+                    (#:foreign #:discrepancy-finder.foreign))
   (:export
    ;; action theories: what designators mean in a theory
    #:action-theory #:action-theory-name #:action-theory-theory #:action-theory-ground
    #:action-theory-actions #:define-action #:register-action #:region-of-pose #:region-of
-   #:action-binding #:find-action-binding #:find-action-theory
+   #:action-binding #:find-action-binding #:find-action-theory #:register-action-theory
+   #:all-action-theories
    #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition
    #:outcome-condition-proposition
    ;; exploration
@@ -19,6 +21,7 @@
    ;; traces
    #:trace-initial-state #:trace-steps #:trace-states #:trace-final-state #:execution-trace
    #:trace-plan #:trace-text #:step-text #:states-along #:outcome-transition #:close-exploration #:exploration-domain #:exploration-constraint #:trace-arguments
+   #:make-trace-step #:make-execution-trace
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
    ;; symbolic values
    #:symbolic-boolean #:symbolic-boolean-proposition

@@ -1,0 +1,176 @@
+;;;; Execution: a plan run concretely from a sample, and what was seen of it.
+;;;;
+;;;; EXECUTE-SAMPLE builds the world, lets it settle, checks that the sample is valid, and runs the
+;;;; compiled plan with a MONITOR for its executive.  The monitor lets the projection perform each
+;;;; designator and records event, outcome and observed state.  With :EXECUTION :TRACE the run stops
+;;;; at the first step that differs from the trace's, or at the trace's end; with :PLAN it goes on to
+;;;; the plan's end.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(defparameter *penetration-tolerance* 1d-3
+  "The depth (m) to which bodies may penetrate each other in a valid sample.")
+
+(defstruct (run-step (:copier nil))
+  "A performed designator: OUTCOME is :SUCCESS or a failure class, ALLOWED the outcome of the action
+binding that it is (NIL if the binding has no such outcome), STATE what was observed afterwards."
+  (designator nil :read-only t)
+  (outcome :success :type symbol :read-only t)
+  (allowed nil :read-only t)
+  (failure nil :type (or null string) :read-only t)
+  (position nil :read-only t)
+  (state '() :type list :read-only t))
+
+(defun run-step-event (step)
+  "Return the event (a list of keywords) that happened in STEP, or NIL."
+  (and (run-step-allowed step) (symbolic:outcome-event (run-step-allowed step))))
+
+(defmethod print-object ((step run-step) stream)
+  (print-unreadable-object (step stream :type t)
+    (format stream "~a -> ~(~a~)" (run-step-designator step) (run-step-outcome step))))
+
+(defstruct (run (:copier nil))
+  "A concrete execution.  VALIDITY is :VALID or a sentence that says why the sample is not; ENDING
+is :TRACE-DONE, :LEFT-TRACE, :FINISHED or the class of an unhandled failure."
+  (sample nil :read-only t)
+  (validity :valid :read-only t)
+  (ending nil :read-only t)
+  (initial-state '() :type list :read-only t)
+  (steps '() :type list :read-only t)
+  (final-state '() :type list :read-only t)
+  (final-values #() :type vector :read-only t)
+  (hash 0 :type (unsigned-byte 64) :read-only t)
+  (seconds 0d0 :type double-float :read-only t))
+
+(defmethod print-object ((run run) stream)
+  (print-unreadable-object (run stream :type t)
+    (format stream "~:[invalid~;~:*~d step~:p~], ~(~a~), ~,2f s simulated,~{ ~a~}"
+            (and (eq (run-validity run) :valid) (length (run-steps run)))
+            (run-ending run) (run-seconds run)
+            (mapcar #'ec:atom-text (observed-fluents (run-final-state run))))))
+
+(defclass monitor ()
+  ((domain :initarg :domain :reader monitor-domain)
+   (projection :initarg :projection :reader monitor-projection)
+   (expected :initarg :expected :accessor monitor-expected
+             :documentation "The steps of the trace that are still to come, or :NONE.")
+   (steps :initform '() :accessor monitor-steps :documentation "Newest first."))
+  (:documentation "The executive of a recorded run."))
+
+(defun find-outcome (outcomes failure)
+  "Return the one of OUTCOMES that FAILURE, a condition or NIL for success, is; or NIL."
+  (find-if (lambda (outcome)
+             (let ((name (symbolic:outcome-name outcome)))
+               (if failure
+                   (and (not (eq name :success)) (typep failure name))
+                   (eq name :success))))
+           outcomes))
+
+(defun same-step-p (step expected)
+  (and (equal (run-step-event step) (symbolic:step-event expected))
+       (run-step-allowed step)
+       (eq (symbolic:outcome-name (run-step-allowed step)) (symbolic:step-outcome expected))))
+
+(defun note-step (monitor step)
+  "Record STEP and leave the run by a throw if there is nothing more to compare with."
+  (push step (monitor-steps monitor))
+  (unless (eq (monitor-expected monitor) :none)
+    (let ((expected (pop (monitor-expected monitor))))
+      (cond ((not (same-step-p step expected)) (throw monitor :left-trace))
+            ((null (monitor-expected monitor)) (throw monitor :trace-done))))))
+
+(defmethod plan:perform-with ((monitor monitor) designator position)
+  (let ((outcomes (symbolic:action-outcomes (monitor-domain monitor) designator))
+        (failure nil)
+        (result nil))
+    (handler-case (setf result (plan:perform-with (monitor-projection monitor) designator position))
+      (plan:plan-failure (condition) (setf failure condition)))
+    (note-step monitor
+               (make-run-step :designator designator :position position
+                              :outcome (if failure (type-of failure) :success)
+                              :allowed (find-outcome outcomes failure)
+                              :failure (and failure (source:condition-sentence failure))
+                              :state (discrete-state (monitor-domain monitor)
+                                                     (monitor-projection monitor))))
+    (if failure
+        (plan:fail failure)
+        result)))
+
+(defun sample-validity (projection trace state)
+  "Return :VALID if the settled PROJECTION with the discrete STATE is an initial state of TRACE, or
+a sentence that says why not."
+  (multiple-value-bind (depth names) (projection:interpenetration projection)
+    (let ((differing (and trace
+                          (loop for (atom . truth) in state
+                                unless (eq truth (ec:fluent-value
+                                                  (symbolic:trace-initial-state trace) atom))
+                                  collect (ec:atom-text atom)))))
+      (cond ((> depth *penetration-tolerance*)
+             (format nil "~{~a and ~a~} penetrate each other by ~,4f m" names depth))
+            (differing (format nil "after settling, ~{~a~^, ~} differ~@[s~] from the trace"
+                               differing (null (rest differing))))
+            (t :valid)))))
+
+(defun final-values (domain projection trace)
+  (coerce (loop for parameter in (final-parameters domain trace)
+                collect (coordinate (projection:observed-pose projection
+                                                              (parameter-body parameter))
+                                    (parameter-axis parameter)))
+          '(simple-array double-float (*))))
+
+(defun run-monitored (monitor plan arguments)
+  "Run the function of PLAN (a symbol) under MONITOR and return how it ended."
+  (catch monitor
+    (plan:with-executive (monitor)
+      (handler-case (progn (apply plan arguments) :finished)
+        (plan:plan-failure (failure) (type-of failure))))))
+
+(defun execute-sample (domain plan sample &key trace (execution :trace) arguments)
+  "Run PLAN (a symbol) with ARGUMENTS in a new world of DOMAIN that begins with SAMPLE, and return
+the RUN.  With a TRACE the sample must map to its initial state, else the run is invalid and has no
+steps; EXECUTION is :TRACE or :PLAN.  The same arguments give the same bits."
+  (projection:with-projection (projection (domain-scene domain)
+                                          :poses (sample-poses domain sample))
+    (let* ((settled (projection:settle projection))
+           (initial-state (discrete-state domain projection))
+           (validity (if settled
+                         (sample-validity projection trace initial-state)
+                         "it does not come to rest")))
+      (flet ((result (ending steps)
+               (make-run :sample sample :validity validity :ending ending
+                         :initial-state initial-state :steps steps
+                         :final-state (discrete-state domain projection)
+                         :final-values (if trace (final-values domain projection trace) #())
+                         :hash (projection:state-hash projection)
+                         :seconds (float (projection:simulated-seconds projection) 1d0))))
+        (if (eq validity :valid)
+            (let* ((monitor (make-instance 'monitor
+                                           :domain domain :projection projection
+                                           :expected (if (and trace (eq execution :trace))
+                                                         (symbolic:trace-steps trace)
+                                                         :none)))
+                   (ending (run-monitored monitor plan arguments)))
+              (result ending (reverse (monitor-steps monitor))))
+            (result :not-run '()))))))
+
+(defun run-plan (plan &key domain state parameters arguments)
+  "Run PLAN (a symbol) concretely in DOMAIN (a domain or its name) and return the RUN.  STATE is a
+list of (BODY axis value ...), such as ((box :x 1.3 :y 0.41)); what it leaves out is as in the
+scene.  PARAMETERS is a property list of scene parameters, ARGUMENTS are the plan's.  Signals
+PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, UNKNOWN-BODY, UNKNOWN-PARAMETER, INVALID-ARGUMENT."
+  (let* ((plan (plan:plan-name (ensure-plan plan)))
+         (domain (domain-with-parameters (ensure-domain domain) parameters))
+         (values '())
+         (coordinates
+           (loop for (body . coordinates) in state
+                 append (loop for (axis value) on coordinates by #'cddr
+                              do (unless (and (assoc axis *axes*) (realp value))
+                                   (error 'invalid-argument
+                                          :name 'state :value (list body axis value)
+                                          :expected "(body axis number)"))
+                                 (projection:scene-body-pose (domain-scene domain) body)
+                                 (push (float value 1d0) values)
+                              collect (make-parameter (ec:name-keyword body) axis
+                                                      (float value 1d0) (float value 1d0))))))
+    (execute-sample domain plan (make-sample 0 coordinates (coerce (nreverse values) 'vector))
+                    :arguments arguments)))

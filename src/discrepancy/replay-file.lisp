@@ -1,0 +1,176 @@
+;;;; Reading replay files.  Every value is checked against what the plan and the domain know; what
+;;;; does not fit is a REPLAY-ERROR that names the file and the key.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(defvar *replay-file* ""
+  "The file that is being read, for error reports.")
+
+(defun replay-problem (control &rest arguments)
+  (error 'replay-error :file *replay-file* :reason (apply #'format nil control arguments)))
+
+(defun value-of (object key type)
+  "Return the value of KEY in the JSON OBJECT; TYPE is a Lisp type that it must have."
+  (unless (listp object)
+    (replay-problem "an object with the key ~s was expected" key))
+  (let ((value (json:get-key object key)))
+    (unless (typep value type)
+      (replay-problem "the value of ~s is not of the kind expected" key))
+    value))
+
+(defun keyword-of (object key choices)
+  "Return the one of the keywords CHOICES that KEY names in OBJECT."
+  (or (find (value-of object key 'string) choices :test #'string-equal)
+      (replay-problem "~s is ~s where one of ~{~(~a~)~^, ~} was expected" key
+                      (value-of object key 'string) choices)))
+
+(defun boolean-of (value)
+  (case value
+    (:true t)
+    (:false nil)
+    (t (replay-problem "~a was found where true or false was expected" value))))
+
+(defun atom-of (text candidates kind)
+  (or (and (stringp text) (text-atom-among text candidates))
+      (replay-problem "~s is no ~a of the theory" text kind)))
+
+(defun text-atom-among (text candidates)
+  (ec:text-atom text (coerce candidates 'list)))
+
+(defun failure-classes (&optional (class (find-class 'plan:plan-failure)))
+  (cons (class-name class)
+        (mapcan #'failure-classes (copy-list (sb-mop:class-direct-subclasses class)))))
+
+(defun outcome-of (text)
+  "Return the outcome named by TEXT: :SUCCESS or a failure class that exists."
+  (if (string= text "success")
+      :success
+      (or (find text (failure-classes) :test #'string-equal)
+          (replay-problem "there is no failure class ~a" text))))
+
+(defun symbol-of (text)
+  "Return the plan name that TEXT names, or NIL.  Nothing is interned."
+  (find-symbol (if (string= text (string-downcase text)) (string-upcase text) text)
+               '#:discrepancy-finder-user))
+
+(defun read-plan (object)
+  (let* ((name (value-of object "name" 'string))
+         (file (value-of object "file" '(or string (eql :null))))
+         (plan (or (let ((symbol (symbol-of name))) (and symbol (plan:plan-source symbol)))
+                   (let ((located (and (stringp file) (locate-file file))))
+                     (when located (plan:load-plan located))
+                     (let ((symbol (symbol-of name))) (and symbol (plan:plan-source symbol)))))))
+    (or plan
+        (replay-problem "there is no plan ~a~@[; its file ~a is not found~]" name
+                        (and (stringp file) (not (locate-file file)) file)))))
+
+(defun read-domain (object)
+  (let* ((name (value-of object "name" 'string))
+         (file (value-of object "file" '(or string (eql :null)))))
+    (flet ((registered ()
+             (find name (symbolic:all-action-theories)
+                   :key (lambda (domain) (ec:name-text (symbolic:action-theory-name domain)))
+                   :test #'string=)))
+      (or (registered)
+          (let ((located (and (stringp file) (locate-file file))))
+            (when located (load-domain located))
+            (registered))
+          (replay-problem "there is no domain ~a~@[; its file ~a is not found~]" name
+                          (and (stringp file) (not (locate-file file)) file))))))
+
+(defun read-parameters (object scene)
+  (loop for (name . value) in object
+        for known = (find name (projection:scene-parameters scene)
+                          :key (lambda (entry) (ec:name-text (first entry))) :test #'string=)
+        do (unless (and known (realp value))
+             (replay-problem "~s: ~a is no parameter of the scene with a number" "parameters" name))
+        append (list (first known) (float value 1d0))))
+
+(defun read-step (object domain)
+  (let ((event (value-of object "event" '(or string (eql :null)))))
+    (symbolic:make-trace-step
+     :designator (value-of object "designator" 'string)
+     :event (and (stringp event)
+                 (atom-of event (ec:ground-theory-events (symbolic:action-theory-ground domain))
+                          "event"))
+     :outcome (outcome-of (value-of object "outcome" 'string)))))
+
+(defun read-trace (object plan domain)
+  (let* ((ground (symbolic:action-theory-ground domain))
+         (true (map 'list
+                    (lambda (text) (atom-of text (ec:ground-theory-fluents ground) "fluent"))
+                    (value-of object "initial" 'simple-vector)))
+         (steps (map 'list (lambda (step) (read-step step domain))
+                     (value-of object "steps" 'simple-vector))))
+    (unless steps
+      (replay-problem "the trace has no steps"))
+    (symbolic:make-execution-trace
+     :plan (plan:plan-name plan) :steps steps
+     :arguments (map 'list #'boolean-of (value-of object "arguments" 'simple-vector))
+     :states (symbolic:states-along
+              (ec:concrete-state ground (lambda (atom) (and (member atom true :test #'equal) t)))
+              steps))))
+
+(defun read-sample (object parameters)
+  (let ((values (value-of object "values" 'list)))
+    (unless (= (length values) (length parameters))
+      (replay-problem "the sample has ~d values where the trace has ~d parameters"
+                      (length values) (length parameters)))
+    (make-sample (value-of object "index" '(integer 0)) parameters
+                 (coerce (loop for parameter in parameters
+                               collect (float (value-of values (parameter-name parameter) 'real)
+                                              1d0))
+                         '(simple-array double-float (*))))))
+
+(defun read-constraint (text domain)
+  (let ((constraint (find text (ec:theory-state-constraints (symbolic:action-theory-theory domain))
+                          :key (lambda (constraint)
+                                 (ec:name-text (ec:state-constraint-name constraint)))
+                          :test #'string=)))
+    (if constraint
+        (ec:state-constraint-name constraint)
+        (replay-problem "the theory has no state constraint ~a" text))))
+
+(defun read-recorded-run (object)
+  "Return the state hash and the verdict that were recorded, as a list."
+  (let ((hash (value-of object "hash" 'string)))
+    (unless (and (= (length hash) 16) (every (lambda (c) (digit-char-p c 16)) hash))
+      (replay-problem "~s is no state hash" hash))
+    (list (parse-integer hash :radix 16)
+          (keyword-of object "verdict" '(:discrepancy :left-trace :consistent)))))
+
+(defun changed-files (object)
+  "Return the names of the plan's and the domain's files whose text has changed since."
+  (loop for key in '("plan" "domain")
+        for part = (value-of object key 'list)
+        for file = (json:get-key part "file")
+        for hash = (json:get-key part "hash")
+        when (and (stringp file) (stringp hash) (not (equal hash (file-hash file))))
+          collect file))
+
+(defun parse-replay (object)
+  "Return what the replay file OBJECT tells: a property list."
+  (unless (and (listp object) (equal (json:get-key object "format" nil) *replay-format*))
+    (replay-problem "it is no replay file: ~s should be ~s" "format" *replay-format*))
+  (let* ((plan (read-plan (value-of object "plan" 'list)))
+         (domain (read-domain (value-of object "domain" 'list)))
+         (parameters (read-parameters (value-of object "parameters" 'list) (domain-scene domain)))
+         (domain (domain-with-parameters domain parameters))
+         (trace (read-trace (value-of object "trace" 'list) plan domain)))
+    (list :plan plan :domain domain :parameters parameters :trace trace
+          :constraint (read-constraint (value-of object "constraint" 'string) domain)
+          :execution (keyword-of object "execution" '(:trace :plan))
+          :compare (keyword-of object "compare" '(:final :every-step))
+          :seed (value-of object "seed" '(unsigned-byte 64))
+          :sample (read-sample (value-of object "sample" 'list) (initial-parameters domain trace))
+          :recorded (read-recorded-run (value-of object "run" 'list))
+          :changed-files (changed-files object))))
+
+(defun read-replay-file (file)
+  "Return the property list that PARSE-REPLAY makes of FILE.  Signals REPLAY-ERROR."
+  (let ((*replay-file* (namestring file)))
+    (unless (uiop:file-exists-p file)
+      (replay-problem "no such file"))
+    (handler-case (parse-replay (json:parse (uiop:read-file-string file :external-format :utf-8)))
+      (json:json-error (condition) (replay-problem "~a" (source:condition-sentence condition)))
+      (stream-error () (replay-problem "it is not a UTF-8 text")))))

@@ -1,0 +1,167 @@
+;;;; Replay: a discrepancy as a file, and the run that the file repeats.
+;;;;
+;;;; SAVE-DISCREPANCY writes a JSON file with all that the run depends on: plan, domain, parameters,
+;;;; trace, the sample's numbers, and a hash of the bits of the final state.  REPLAY runs it again,
+;;;; in any process, and tells "same bits" from "same verdict, other bits" and "other verdict".
+;;;; Reading a file evaluates nothing, and a file that is not right in every part is refused.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(defparameter *replay-format* "discrepancy-finder discrepancy 1"
+  "The value of \"format\" in replay files.")
+
+(defun file-hash (file)
+  "Return the hash of the text in FILE, or NIL if it cannot be read."
+  (let ((located (and file (locate-file file))))
+    (and located
+         (ignore-errors (hash-text (content-hash (uiop:read-file-string
+                                                  located :external-format :utf-8)))))))
+
+;;; Writing
+
+(defun json-boolean (value)
+  (if value :true :false))
+
+(defun json-or-null (value)
+  (or value :null))
+
+(defun trace-json (trace)
+  (json:object
+   "arguments" (map 'vector #'json-boolean (symbolic:trace-arguments trace))
+   "initial" (map 'vector #'ec:atom-text (ec:state-fluents (symbolic:trace-initial-state trace)))
+   "steps" (map 'vector
+                (lambda (step)
+                  (json:object
+                   "designator" (symbolic:step-designator step)
+                   "event" (json-or-null (and (symbolic:step-event step)
+                                              (ec:atom-text (symbolic:step-event step))))
+                   "outcome" (string-downcase (symbolic:step-outcome step))))
+                (symbolic:trace-steps trace))))
+
+(defun sample-json (sample)
+  (json:object "index" (sample-index sample)
+               "values" (loop for parameter in (sample-parameters sample)
+                              for value across (sample-values sample)
+                              collect (cons (parameter-name parameter) value))))
+
+(defun divergence-json (divergence)
+  (json:object "step" (1+ (divergence-step divergence))
+               "kind" (string-downcase (divergence-kind divergence))
+               "fluents" (map 'vector
+                              (lambda (entry)
+                                (destructuring-bind (atom theory simulation) entry
+                                  (vector (ec:atom-text atom) (json-boolean theory)
+                                          (json-boolean simulation))))
+                              (divergence-fluents divergence))))
+
+(defun discrepancy-json (discrepancy)
+  (let* ((plan (discrepancy-plan discrepancy))
+         (domain (discrepancy-domain discrepancy))
+         (run (discrepancy-run discrepancy))
+         (position (plan:plan-position plan))
+         (plan-file (and position (source:source-position-file position))))
+    (json:object
+     "format" *replay-format*
+     "plan" (json:object "name" (ec:name-text (plan:plan-name plan))
+                         "file" (json-or-null plan-file)
+                         "hash" (json-or-null (file-hash plan-file)))
+     "domain" (json:object "name" (ec:name-text (symbolic:action-theory-name domain))
+                           "file" (json-or-null (domain-file domain))
+                           "hash" (json-or-null (file-hash (domain-file domain))))
+     "constraint" (ec:name-text (discrepancy-constraint discrepancy))
+     "parameters" (loop for (name value) on (discrepancy-parameters discrepancy) by #'cddr
+                        collect (cons (ec:name-text name) (float value 1d0)))
+     "execution" (string-downcase (discrepancy-execution discrepancy))
+     "compare" (string-downcase (discrepancy-compare discrepancy))
+     "seed" (discrepancy-seed discrepancy)
+     "trace" (trace-json (discrepancy-trace discrepancy))
+     "sample" (sample-json (discrepancy-sample discrepancy))
+     "run" (json:object
+            "hash" (hash-text (run-hash run))
+            "verdict" (string-downcase (judgement-verdict (discrepancy-judgement discrepancy)))
+            "final" (map 'vector #'ec:atom-text (observed-fluents (run-final-state run)))
+            "divergence" (divergence-json (judgement-divergence
+                                           (discrepancy-judgement discrepancy)))))))
+
+(defun write-file-whole (file text)
+  "Write TEXT to FILE, which either keeps its old content or gets all of the new."
+  (let* ((file (merge-pathnames file))
+         (temporary (make-pathname :type "part" :defaults file)))
+    (ensure-directories-exist file)
+    (with-open-file (stream temporary :direction :output :if-exists :supersede
+                                      :external-format :utf-8)
+      (write-string text stream))
+    (uiop:rename-file-overwriting-target temporary file)))
+
+(defun save-discrepancy (discrepancy &optional file)
+  "Write DISCREPANCY to FILE and return the file's name.  By default the file is in the folder
+discrepancies/, under a name made of plan, seed and state hash."
+  (let ((file (or file (format nil "discrepancies/~a-~d-~a.json"
+                               (file-name (plan:plan-name (discrepancy-plan discrepancy)))
+                               (discrepancy-seed discrepancy)
+                               (subseq (hash-text (run-hash (discrepancy-run discrepancy))) 0 8)))))
+    (write-file-whole file (format nil "~a~%" (json:encode (discrepancy-json discrepancy)
+                                                           :pretty t)))
+    (setf (discrepancy-file discrepancy) (namestring file))))
+
+;;; Replaying
+
+(defstruct (replay-result (:conc-name replay-) (:copier nil))
+  "What a replay came to: STATUS is :SAME-BITS, :SAME-VERDICT (other bits) or :OTHER-VERDICT."
+  (status :other-verdict :type (member :same-bits :same-verdict :other-verdict) :read-only t)
+  (discrepancy nil :read-only t)
+  (run nil :read-only t)
+  (judgement nil :read-only t)
+  (recorded-hash 0 :type (unsigned-byte 64) :read-only t)
+  (changed-files '() :type list :read-only t))
+
+(defmethod print-object ((result replay-result) stream)
+  (print-unreadable-object (result stream :type t)
+    (format stream "~(~a~)" (replay-status result))))
+
+(defun replay (file)
+  "Run the discrepancy stored in FILE again and return a REPLAY-RESULT.  Plan and domain are loaded
+from the files that it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
+  (destructuring-bind (&key plan domain parameters trace constraint execution compare seed sample
+                         recorded changed-files)
+      (read-replay-file file)
+    (let* ((run (execute-sample domain (plan:plan-name plan) sample
+                                :trace trace :execution execution
+                                :arguments (symbolic:trace-arguments trace)))
+           (judgement (if (eq (run-validity run) :valid)
+                          (judge-run domain run trace :compare compare)
+                          (make-judgement :verdict :left-trace)))
+           (same-bits (= (run-hash run) (first recorded)))
+           (same-verdict (eq (judgement-verdict judgement) (second recorded))))
+      (make-replay-result
+       :status (cond ((and same-bits same-verdict) :same-bits)
+                     (same-verdict :same-verdict)
+                     (t :other-verdict))
+       :run run :judgement judgement :recorded-hash (first recorded) :changed-files changed-files
+       :discrepancy (and (eq (judgement-verdict judgement) :discrepancy)
+                         (make-discrepancy
+                          :plan plan :domain domain :parameters parameters :execution execution
+                          :compare compare :seed seed :trace trace :sample sample :run run
+                          :constraint constraint
+                          :judgement judgement :confirmed-p same-bits
+                          :file (namestring file)))))))
+
+(defun replay-text (result)
+  "Return the report of the REPLAY-RESULT RESULT, a text of several lines."
+  (with-output-to-string (stream)
+    (format stream "~a~%"
+            (ecase (replay-status result)
+              (:same-bits "SAME BITS: the replayed run ends in the recorded state, bit for bit.")
+              (:same-verdict "SAME VERDICT, OTHER BITS: the replayed run is judged as recorded.")
+              (:other-verdict "OTHER VERDICT: the replayed run is judged otherwise than recorded.")))
+    (format stream "  state hash ~a, recorded ~a~%" (hash-text (run-hash (replay-run result)))
+            (hash-text (replay-recorded-hash result)))
+    (dolist (file (replay-changed-files result))
+      (format stream "  ~a has changed since~%" file))
+    (cond ((not (eq (run-validity (replay-run result)) :valid))
+           (format stream "  the initial state is not valid any more: ~a~%"
+                   (run-validity (replay-run result))))
+          ((replay-discrepancy result)
+           (write-string (discrepancy-text (replay-discrepancy result)) stream))
+          (t (format stream "  theory and simulation agree; final state ~a~%"
+                     (state-text (observed-fluents (run-final-state (replay-run result)))))))))

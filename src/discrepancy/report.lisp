@@ -1,0 +1,138 @@
+;;;; Reports: what a search found, in words and numbers with units.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(defun hash-text (hash)
+  (format nil "~(~16,'0x~)" hash))
+
+(defun state-text (atoms)
+  (format nil "~:[nothing~;~:*~{~a~^ ~}~]" (mapcar #'ec:atom-text atoms)))
+
+(defun parameters-text (parameters)
+  "Return a text for the property list PARAMETERS of scene parameters, or NIL."
+  (and parameters
+       (format nil "~{~(~a~) = ~a~^, ~}" parameters)))
+
+(defun source-text (name position-or-file)
+  (format nil "~(~a~)~@[ (~a)~]" name (and position-or-file (princ-to-string position-or-file))))
+
+(defun describe-trace (trace stream)
+  (format stream "  trace~%    initially ~a~%"
+          (state-text (ec:state-fluents (symbolic:trace-initial-state trace))))
+  (loop for step in (symbolic:trace-steps trace)
+        for number from 1
+        do (format stream "    ~d. ~a~%       ~a~@[, at ~a~]~%" number
+                   (symbolic:step-designator step) (symbolic:step-text step)
+                   (and (symbolic:step-position step)
+                        (princ-to-string (symbolic:step-position step)))))
+  (format stream "    finally ~a~%"
+          (state-text (ec:state-fluents (symbolic:trace-final-state trace)))))
+
+(defun describe-sample (domain sample stream)
+  (format stream "  initial state of the simulation (sample ~d)~%" (sample-index sample))
+  (let ((poses (sample-poses domain sample)))
+    (loop for parameter in (sample-parameters sample)
+          for value across (sample-values sample)
+          do (format stream "    ~a = ~,4f ~a~%" (parameter-name parameter) value
+                     (axis-unit (parameter-axis parameter))))
+    (loop for (body pose) on poses by #'cddr
+          for region = (symbolic:region-of-pose domain pose)
+          do (format stream "    ~a is in ~:[no region~;~:*~a~]~%" (ec:name-text body)
+                     (and region (ec:name-text region))))))
+
+(defun describe-divergence (discrepancy stream)
+  (let* ((divergence (judgement-divergence (discrepancy-judgement discrepancy)))
+         (run (discrepancy-run discrepancy))
+         (step (nth (divergence-step divergence) (run-steps run))))
+    (format stream "  theory and simulation part at step ~d, ~a~%" (1+ (divergence-step divergence))
+            (run-step-designator step))
+    (ecase (divergence-kind divergence)
+      (:outcome
+       (format stream "    the simulation ends it with ~:[success~;~:*~a~], which the theory ~
+                       forbids~%"
+               (run-step-failure step)))
+      (:state
+       (format stream "    the theory forbids the state after it~%")))
+    (loop for (atom theory simulation) in (divergence-fluents divergence)
+          do (format stream "    ~a: theory ~:[false~;true~], simulation ~:[false~;true~]~%"
+                     (ec:atom-text atom) theory simulation))))
+
+(defun discrepancy-text (discrepancy &key (command "./discrepancy-finder"))
+  "Return a text of several lines that tells DISCREPANCY: the trace, the initial state, where theory
+and simulation part, both final states, and how COMMAND replays it."
+  (with-output-to-string (stream)
+    (describe-trace (discrepancy-trace discrepancy) stream)
+    (describe-sample (discrepancy-domain discrepancy) (discrepancy-sample discrepancy) stream)
+    (describe-divergence discrepancy stream)
+    (format stream "  final state~%    theory:     ~a~%    simulation: ~a~%"
+            (state-text (ec:state-fluents
+                         (symbolic:trace-final-state (discrepancy-trace discrepancy))))
+            (state-text (observed-fluents (run-final-state (discrepancy-run discrepancy)))))
+    (format stream "  run twice: ~:[different bits, so the simulation is not deterministic~;~
+                    the same bits~], state hash ~a~%"
+            (discrepancy-confirmed-p discrepancy)
+            (hash-text (run-hash (discrepancy-run discrepancy))))
+    (when (discrepancy-file discrepancy)
+      (format stream "  replay it with: ~a replay ~a~%" command (discrepancy-file discrepancy)))))
+
+(defun trace-result-text (result number)
+  (format nil "  trace ~d: ~(~a~), ~a~%    ~d simulation~:p that agree~:*~[~;s~:;~]~@[, ~d rejected~]~
+               ~@[, ~d left the trace~]~%"
+          number (trace-result-status result) (trace-result-reason result)
+          (trace-result-samples result)
+          (let ((rejected (trace-result-rejected result))) (and (plusp rejected) rejected))
+          (let ((left (trace-result-left-trace result))) (and (plusp left) left))))
+
+(defun headline (result)
+  (ecase (result-status result)
+    (:discrepancy "DISCREPANCY: theory and simulation disagree.")
+    (:certified (format nil "NO DISCREPANCY: the rule ~(~a~) is satisfied at ~a % confidence for ~
+                             every trace."
+                        (result-rule-name result)
+                        (percent-text (result-confidence result))))
+    (:undecided (format nil "UNDECIDED: ~a." (result-reason result)))))
+
+(defun percent-text (fraction)
+  "Return FRACTION in percent with as few digits as it has."
+  (string-right-trim "." (string-right-trim "0" (format nil "~,6f" (* 100 fraction)))))
+
+(defun result-text (result &key (command "./discrepancy-finder"))
+  "Return the report of RESULT, a text of several lines."
+  (let ((domain (result-domain result))
+        (discrepancies (result-discrepancies result)))
+    (with-output-to-string (stream)
+      (format stream "~a~%" (headline result))
+      (format stream "  plan ~a~%" (source-text (plan:plan-name (result-plan result))
+                                                (plan:plan-position (result-plan result))))
+      (format stream "  domain ~a~@[, with ~a~]~%"
+              (source-text (symbolic:action-theory-name domain) (domain-file domain))
+              (parameters-text (result-parameters result)))
+      (format stream "  state constraint ~a, rule ~(~a~), confidence ~a, seed ~d~%"
+              (ec:name-text (result-constraint result)) (result-rule-name result)
+              (result-confidence result) (result-seed result))
+      (format stream "  ~d iteration~:p, ~d simulation~:p~%" (result-iterations result)
+              (result-simulations result))
+      (format stream "  ~,3f s in symbolic execution, ~,3f s in simulation~%"
+              (result-symbolic-seconds result) (result-simulation-seconds result))
+      (unless discrepancies
+        (loop for trace in (result-traces result)
+              for number from 1
+              do (write-string (trace-result-text trace number) stream)
+                 (describe-trace (trace-result-trace trace) stream)))
+      (dolist (discrepancy discrepancies)
+        (write-string (discrepancy-text discrepancy :command command) stream)))))
+
+(defun run-text (run)
+  "Return the report of RUN, a text of several lines."
+  (with-output-to-string (stream)
+    (format stream "initially ~a~%" (state-text (observed-fluents (run-initial-state run))))
+    (if (eq (run-validity run) :valid)
+        (loop for step in (run-steps run)
+              for number from 1
+              do (format stream "  ~d. ~a~%     ~:[success~;~:*~a~]; ~a~%" number
+                         (run-step-designator step) (run-step-failure step)
+                         (state-text (observed-fluents (run-step-state step)))))
+        (format stream "  not run: ~a~%" (run-validity run)))
+    (format stream "finally ~a (~(~a~), ~,2f s simulated, state hash ~a)~%"
+            (state-text (observed-fluents (run-final-state run))) (run-ending run)
+            (run-seconds run) (hash-text (run-hash run)))))

@@ -1,0 +1,113 @@
+;;;; Samples: continuous initial states that map to a trace's discrete one.
+;;;;
+;;;; The INITIAL-PARAMETERS of a trace are the coordinates of the bodies whose placements hold in its
+;;;; initial state, each with the bounds of its region or its own range.  Sample i draws each
+;;;; parameter uniformly: a pure function of seed, trace content and i.  The FINAL-PARAMETERS are
+;;;; the coordinates that the regions of the trace's final state bound: the confidence rule predicts
+;;;; them.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(defstruct (parameter (:constructor make-parameter (body axis min max)) (:copier nil))
+  "The coordinate AXIS of BODY between MIN and MAX (m, rad)."
+  (body nil :type keyword :read-only t)
+  (axis nil :type keyword :read-only t)
+  (min 0d0 :type double-float :read-only t)
+  (max 0d0 :type double-float :read-only t))
+
+(defun parameter-name (parameter)
+  "Return the name of PARAMETER, such as \"box.x\"."
+  (format nil "~a.~(~a~)" (ec:name-text (parameter-body parameter)) (parameter-axis parameter)))
+
+(defmethod print-object ((parameter parameter) stream)
+  (print-unreadable-object (parameter stream :type t)
+    (format stream "~a in [~a, ~a[" (parameter-name parameter) (parameter-min parameter)
+            (parameter-max parameter))))
+
+(defstruct (sample (:constructor make-sample (index parameters values)) (:copier nil))
+  "A continuous initial state: VALUES (a vector of double floats) of PARAMETERS (a list)."
+  (index 0 :type (integer 0) :read-only t)
+  (parameters '() :type list :read-only t)
+  (values #() :type vector :read-only t))
+
+(defun axis-unit (axis)
+  (if (eq axis :yaw) "rad" "m"))
+
+(defun sample-text (sample)
+  "Return the values of SAMPLE with names and units."
+  (format nil "~{~a~^, ~}"
+          (loop for parameter in (sample-parameters sample)
+                for value across (sample-values sample)
+                collect (format nil "~a = ~,4f ~a" (parameter-name parameter) value
+                                (axis-unit (parameter-axis parameter))))))
+
+(defmethod print-object ((sample sample) stream)
+  (print-unreadable-object (sample stream :type t)
+    (format stream "~d: ~a" (sample-index sample) (sample-text sample))))
+
+(defun placements (domain)
+  (remove-if-not #'placement-p (domain-observers domain)))
+
+(defun placement-region (placement state)
+  "Return the region that PLACEMENT's fluent names in STATE, a state of the theory, or NIL."
+  (find-if (lambda (region)
+             (ec:fluent-value state (list (placement-fluent placement) (region-name region))))
+           (placement-regions placement)))
+
+(defun initial-parameters (domain trace)
+  "Return the list of the PARAMETERs of DOMAIN that are sampled for TRACE.  Signals SAMPLING-ERROR
+if the initial state of TRACE says of a body that it is nowhere, or that an item is held."
+  (let ((state (symbolic:trace-initial-state trace)))
+    (dolist (observer (domain-observers domain))
+      (when (and (attachment-p observer) (ec:fluent-value state (attachment-atom observer)))
+        (error 'sampling-error :trace trace
+                               :reason (format nil "~a holds initially, and an item in the gripper ~
+                                                    is not sampled"
+                                               (ec:atom-text (attachment-atom observer))))))
+    (loop for placement in (placements domain)
+          for region = (or (placement-region placement state)
+                           (error 'sampling-error
+                                  :trace trace
+                                  :reason (format nil "no ~a holds initially"
+                                                  (ec:name-text (placement-fluent placement)))))
+          append (loop for (axis min max) in (placement-coordinates placement)
+                       for (nil region-min region-max) = (assoc axis (region-bounds region))
+                       collect (make-parameter (placement-body placement) axis
+                                               (or min region-min) (or max region-max))))))
+
+(defun final-parameters (domain trace)
+  "Return the list of the PARAMETERs of DOMAIN whose final values the theory bounds in TRACE."
+  (loop for placement in (placements domain)
+        for region = (placement-region placement (symbolic:trace-final-state trace))
+        append (and region
+                    (loop for (axis min max) in (region-bounds region)
+                          collect (make-parameter (placement-body placement) axis min max)))))
+
+(defun draw-sample (parameters seed content index)
+  "Return the SAMPLE number INDEX of PARAMETERS: each is uniform between its bounds, a pure function
+of SEED, CONTENT (the hash of the trace) and INDEX."
+  (make-sample index parameters
+               (coerce (loop for parameter in parameters
+                             for draw from 0
+                             collect (+ (parameter-min parameter)
+                                        (* (unit-float seed content index draw)
+                                           (- (parameter-max parameter)
+                                              (parameter-min parameter)))))
+                       '(simple-array double-float (*)))))
+
+(defun pose-with (pose axis value)
+  "Return the upright POSE with the coordinate AXIS changed to VALUE."
+  (flet ((part (key) (if (eq key axis) value (coordinate pose key))))
+    (make-pose (part :x) (part :y) (part :z) :yaw (part :yaw))))
+
+(defun sample-poses (domain sample)
+  "Return the property list of the poses that the bodies of DOMAIN's scene have in SAMPLE."
+  (let ((poses '()))
+    (loop for parameter in (sample-parameters sample)
+          for value across (sample-values sample)
+          for body = (parameter-body parameter)
+          do (setf (getf poses body)
+                   (pose-with (or (getf poses body)
+                                  (projection:scene-body-pose (domain-scene domain) body))
+                              (parameter-axis parameter) value)))
+    poses))

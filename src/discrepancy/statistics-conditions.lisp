@@ -1,0 +1,21 @@
+(in-package #:discrepancy-finder.discrepancy)
+
+(define-condition invalid-confidence (error)
+  ((value :initarg :value :reader invalid-confidence-value
+          :documentation "The object that was given as a confidence."))
+  (:report (lambda (condition stream)
+             (format stream "A confidence lies between 0 and 1, both excluded, which ~s does not."
+                     (invalid-confidence-value condition))))
+  (:documentation "Signaled when a confidence rule is made with a confidence that is not a real
+number between 0 and 1."))
+
+(define-condition unknown-confidence-rule (error)
+  ((name :initarg :name :reader unknown-confidence-rule-name
+         :documentation "The object that was given as the name of a rule.")
+   (known :initarg :known :reader unknown-confidence-rule-known
+          :documentation "The list of the names of all rules, sorted."))
+  (:report (lambda (condition stream)
+             (format stream "There is no confidence rule ~s, only ~{~s~^, ~}."
+                     (unknown-confidence-rule-name condition)
+                     (unknown-confidence-rule-known condition))))
+  (:documentation "Signaled when a confidence rule is sought by a name that no rule has."))

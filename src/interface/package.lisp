@@ -1,0 +1,70 @@
+(defpackage #:discrepancy-finder
+  (:documentation "Finds out where a Discrete Event Calculus model of a robot's world is wrong.")
+  (:use #:cl)
+  (:local-nicknames (#:ec #:discrepancy-finder.event-calculus)
+                    (#:plan #:discrepancy-finder.plan-language)
+                    (#:symbolic #:discrepancy-finder.symbolic-execution)
+                    (#:projection #:discrepancy-finder.projection)
+                    (#:discrepancy #:discrepancy-finder.discrepancy)
+                    (#:source #:discrepancy-finder.source)
+                    (#:foreign #:discrepancy-finder.foreign)
+                    (#:z3 #:discrepancy-finder.z3)
+                    (#:json #:discrepancy-finder.json)
+                    (#:arguments #:command-line-arguments))
+  (:import-from #:discrepancy-finder.event-calculus
+                #:define-theory #:load-theory #:find-theory #:define-state-constraint
+                #:event-calculus-error #:theory-error #:theory-not-found
+                #:state-constraint-not-found)
+  (:import-from #:discrepancy-finder.plan-language #:load-plan #:plan-not-found)
+  (:import-from #:discrepancy-finder.symbolic-execution
+                #:define-action #:region-of #:exploration #:exploration-traces
+                #:exploration-complete-p #:exploration-paths #:exploration-gaps
+                #:trace-initial-state #:trace-steps #:trace-final-state #:execution-trace
+                #:unsupported-form #:nondeterministic-plan #:domain-not-found #:action-problem)
+  (:import-from #:discrepancy-finder.discrepancy
+                #:define-abstraction #:load-domain #:domain
+                #:find-discrepancies #:search-result #:result-status #:result-reason
+                #:result-text #:result-discrepancy #:result-discrepancies #:result-traces
+                #:result-simulations #:result-iterations #:result-exploration
+                #:discrepancy #:discrepancy-text #:discrepancy-trace #:discrepancy-sample
+                #:discrepancy-run #:discrepancy-judgement
+                #:run-plan #:run-steps #:run-final-state #:run-hash
+                #:save-discrepancy #:replay #:replay-status #:replay-text
+                #:discrepancy-found #:discrepancy-found-discrepancy
+                #:continue-search #:next-trace #:accept
+                #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
+                #:invalid-confidence #:unknown-confidence-rule #:invalid-argument)
+  (:import-from #:discrepancy-finder.projection
+                #:scene-error #:urdf-error #:unknown-parameter #:unknown-body)
+  (:import-from #:discrepancy-finder.source #:source-error)
+  (:import-from #:discrepancy-finder.z3
+                #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat)
+  (:export
+   ;; theories, domains, plans
+   #:define-theory #:load-theory #:find-theory #:define-state-constraint
+   #:define-abstraction #:define-action #:region-of #:load-domain #:domain #:load-plan
+   ;; symbolic execution
+   #:explore-plan #:exploration #:exploration-traces #:exploration-complete-p
+   #:exploration-paths #:exploration-gaps
+   #:execution-trace #:trace-initial-state #:trace-steps #:trace-final-state
+   ;; projection
+   #:run-plan #:run-steps #:run-final-state #:run-hash
+   ;; the search
+   #:find-discrepancies #:search-result #:result-status #:result-reason #:result-text
+   #:result-discrepancy #:result-discrepancies #:result-traces #:result-simulations
+   #:result-iterations #:result-exploration
+   #:discrepancy #:discrepancy-text #:discrepancy-trace #:discrepancy-sample #:discrepancy-run
+   #:discrepancy-judgement
+   #:save-discrepancy #:replay #:replay-status #:replay-text
+   ;; conditions and restarts
+   #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
+   #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
+   #:plan-not-found #:domain-not-found #:source-error #:scene-error #:urdf-error
+   #:unknown-parameter #:unknown-body #:unsupported-form #:nondeterministic-plan #:action-problem
+   #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
+   #:invalid-confidence #:unknown-confidence-rule #:invalid-argument
+   #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat
+   ;; the command line
+   #:main #:demo #:version))
+
+(use-package '#:discrepancy-finder '#:discrepancy-finder-user)

@@ -1,0 +1,88 @@
+;;;; The subcommands of the executable.
+
+(in-package #:discrepancy-finder)
+
+(defun command-name ()
+  "Return how the user called the executable, for texts that tell what to type."
+  (or (uiop:getenvp "DISCREPANCY_FINDER_COMMAND") "discrepancy-finder"))
+
+(defun status-code (result)
+  (ecase (result-status result)
+    (:certified 0)
+    (:discrepancy 1)
+    (:undecided 3)))
+
+(define-subcommand "demo" (arguments options)
+    (""
+     "Run both variants of the paper's Example 1."
+     (("seed") :type integer :documentation "seed of the samples (1)"))
+  (demo :seed (or (getf options :seed) 1) :command (command-name))
+  0)
+
+(define-subcommand "find" (arguments options)
+    ("PLAN [NAME] --domain DOMAIN [OPTION ...]"
+     "Search for a discrepancy along a plan: a file of plans, or a plan's name."
+     (("domain") :type string :documentation "name of a domain, or its file or folder")
+     (("constraint") :type string :documentation "name of the state constraint")
+     (("confidence") :type string :documentation "confidence, between 0 and 1 (0.95)")
+     (("rule") :type string :documentation "confidence rule (paper)")
+     (("seed") :type integer :documentation "seed of the samples (1)")
+     (("budget") :type integer :documentation "largest number of simulations (1000)")
+     (("set") :type string :list t :optional t
+      :documentation "scene parameter, as name=number; may be repeated")
+     (("execution") :type string :documentation "trace or plan (trace)")
+     (("compare") :type string :documentation "final or every-step (final)")
+     (("save") :type string :documentation "file for the discrepancy"))
+  (let ((result (apply #'find-discrepancies (plan-argument arguments)
+                       :domain (domain-argument options)
+                       :parameters (parameter-arguments (getf options :set))
+                       (append
+                        (loop for (key name) in '((:constraint "--constraint") (:rule "--rule")
+                                                  (:execution "--execution")
+                                                  (:compare "--compare"))
+                              for text = (getf options key)
+                              when text append (list key (keyword-argument text)))
+                        (loop for key in '(:seed :budget)
+                              when (getf options key) append (list key (getf options key)))
+                        (let ((text (getf options :confidence)))
+                          (and text (list :confidence (number-argument text "--confidence"))))))))
+    (when (result-discrepancy result)
+      (save-discrepancy (result-discrepancy result) (getf options :save)))
+    (write-string (result-text result :command (command-name)))
+    (status-code result)))
+
+(define-subcommand "explore" (arguments options)
+    ("PLAN [NAME] --domain DOMAIN [OPTION ...]"
+     "List the traces of a plan on which the state constraint comes true."
+     (("domain") :type string :documentation "name of a domain, or its file or folder")
+     (("constraint") :type string :documentation "name of the state constraint"))
+  (let ((exploration (explore-plan (plan-argument arguments)
+                                   :domain (domain-argument options)
+                                   :constraint (let ((text (getf options :constraint)))
+                                                 (and text (keyword-argument text))))))
+    (describe-object exploration *standard-output*)
+    (if (exploration-complete-p exploration) 0 3)))
+
+(define-subcommand "simulate" (arguments options)
+    ("PLAN [NAME] --domain DOMAIN [OPTION ...]"
+     "Run a plan concretely, from a given state."
+     (("domain") :type string :documentation "name of a domain, or its file or folder")
+     (("state") :type string :list t :optional t
+      :documentation "coordinate of a body, as body.axis=number; may be repeated")
+     (("set") :type string :list t :optional t
+      :documentation "scene parameter, as name=number; may be repeated"))
+  (let ((run (run-plan (plan-argument arguments)
+                       :domain (domain-argument options)
+                       :state (state-arguments (getf options :state))
+                       :parameters (parameter-arguments (getf options :set)))))
+    (write-string (discrepancy:run-text run))
+    0))
+
+(define-subcommand "replay" (arguments options)
+    ("FILE"
+     "Run a stored discrepancy again, and say whether it comes out the same.")
+  (unless (= (length arguments) 1)
+    (usage-problem "replay takes one file."))
+  (let ((result (replay (first arguments))))
+    (write-string (replay-text result))
+    (if (eq (replay-status result) :other-verdict) 0 1)))

@@ -1,0 +1,46 @@
+(in-package #:discrepancy-finder.projection)
+
+(define-condition projection-error (error)
+  ()
+  (:documentation "Root of the errors about scenes and projections."))
+
+(define-condition scene-error (projection-error)
+  ((file :initarg :file :reader scene-error-file :documentation "The scene's file.")
+   (line :initarg :line :initform nil :reader scene-error-line
+         :documentation "The line, or NIL.")
+   (reason :initarg :reason :reader scene-error-reason
+           :documentation "What is wrong, as a string without a full stop."))
+  (:report (lambda (condition stream)
+             (format stream "~a~@[:~d~]: ~a." (scene-error-file condition)
+                     (scene-error-line condition) (scene-error-reason condition))))
+  (:documentation "Signaled when a scene file is not well-formed."))
+
+(define-condition urdf-error (projection-error)
+  ((file :initarg :file :reader urdf-error-file :documentation "The URDF file.")
+   (element :initarg :element :initform nil :reader urdf-error-element
+            :documentation "The element to blame, as a string such as \"link base_link\", or NIL.")
+   (reason :initarg :reason :reader urdf-error-reason
+           :documentation "What is wrong, as a string without a full stop."))
+  (:report (lambda (condition stream)
+             (format stream "~a: ~@[~a: ~]~a." (urdf-error-file condition)
+                     (urdf-error-element condition) (urdf-error-reason condition))))
+  (:documentation "Signaled when a URDF file cannot be read or holds what is not supported."))
+
+(define-condition unknown-parameter (projection-error)
+  ((name :initarg :name :reader unknown-parameter-name :documentation "The name in question.")
+   (scene :initarg :scene :reader unknown-parameter-scene :documentation "The scene.")
+   (known :initarg :known :reader unknown-parameter-known
+          :documentation "The names of the scene's parameters."))
+  (:report (lambda (condition stream)
+             (with-slots (name scene known) condition
+               (format stream "The scene ~(~a~) has no parameter ~(~a~); it has ~{~(~a~)~^, ~}."
+                       scene name known))))
+  (:documentation "Signaled when a parameter is named that a scene does not have."))
+
+(define-condition unknown-body (projection-error)
+  ((name :initarg :name :reader unknown-body-name :documentation "The name in question.")
+   (scene :initarg :scene :reader unknown-body-scene :documentation "The scene."))
+  (:report (lambda (condition stream)
+             (format stream "The scene ~(~a~) has no robot and no item ~(~a~)."
+                     (unknown-body-scene condition) (unknown-body-name condition))))
+  (:documentation "Signaled when a body is named that a scene does not have."))

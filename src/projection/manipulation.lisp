@@ -1,0 +1,134 @@
+;;;; The manipulation process module: actions of type picking-up and placing.
+;;;;
+;;;; The gripper comes from above.  An item within reach of the shoulder is grasped at the middle of
+;;;; its top by a fixed constraint between gripper and item, lifted, and carried in front of the
+;;;; base.  Placing lowers it until its centre is at the target and lets go: how it comes to rest is
+;;;; Bullet's business.
+
+(in-package #:discrepancy-finder.projection)
+
+(defparameter *grasp-gap* 1d-3
+  "The distance (m) between the gripper's tip and the top of an item that is grasped.")
+
+(defparameter *release-gap* 2d-3
+  "The height (m) above its target at which an item is let go.")
+
+(defun move-arm (projection lift shoulder extension)
+  "Move the arm of PROJECTION's robot to the joint positions LIFT (m), SHOULDER (rad) and EXTENSION
+(m), all at once."
+  (let* ((robot (projection-robot projection))
+         (scene (projection-scene projection))
+         (roles '(:lift :shoulder :extension))
+         (goals (list lift shoulder extension))
+         (starts (loop for role in roles collect (joint-position robot role))))
+    (call-along-profile (lambda (fraction)
+                          (loop for role in roles for start in starts for goal in goals
+                                do (setf (joint-position robot role)
+                                         (interpolate start goal fraction)))
+                          (step-projection projection)
+                          nil)
+                        (reduce #'max (mapcar (lambda (start goal) (abs (- goal start)))
+                                              starts goals))
+                        (scene-parameter scene :joint-speed)
+                        (scene-parameter scene :joint-acceleration))))
+
+(defun item-height (projection name)
+  "Return the height (m) of the item NAME's bounding box in its own frame."
+  (labels ((height (shape)
+             (ecase (first shape)
+               (:box (fourth shape))
+               (:cylinder (third shape))
+               (:sphere (* 2 (second shape)))
+               (:compound (loop for (pose part) in (rest shape)
+                                maximize (+ (abs (* 2 (pose-z pose))) (height part)))))))
+    (let ((part (scene-part (projection-scene projection) name)))
+      (height (urdf-link-shape (first (urdf-model-links (scene-part-model part))))))))
+
+(defun check-reach (projection pose what)
+  "Signal MANIPULATION-POSE-UNREACHABLE unless the position of POSE is within reach."
+  (let ((distance (shoulder-distance (projection-robot projection) pose))
+        (reach (scene-parameter (projection-scene projection) :reach)))
+    (when (> distance reach)
+      (plan:fail 'plan:manipulation-pose-unreachable
+                 :description (format nil "~a is ~,3f m from the shoulder, which reaches ~,3f m"
+                                      what distance reach)))))
+
+(defun tip-configuration (projection pose height what)
+  "Return the arm configuration with the gripper's tip at HEIGHT above the position of POSE.
+Signals MANIPULATION-POSE-UNREACHABLE."
+  (or (arm-configuration (projection-robot projection)
+                         (make-pose (pose-x pose) (pose-y pose) (+ (pose-z pose) height)))
+      (plan:fail 'plan:manipulation-pose-unreachable
+                 :description (format nil "the joint limits of the arm keep it from ~a" what))))
+
+(defun retract-arm (projection lift)
+  "Take the arm back in front of the base at the height LIFT."
+  (let ((joint (find-joint (projection-robot projection) :extension)))
+    (destructuring-bind (shoulder extension)
+        (list (joint-position (projection-robot projection) :shoulder)
+              (or (urdf-joint-lower joint) 0d0))
+      (move-arm projection lift shoulder extension)
+      (move-arm projection lift 0d0 extension))))
+
+(defun visit (projection pose height what function)
+  "Bring the tip of the gripper from above to HEIGHT above the position of POSE, call FUNCTION
+there, and take the arm back."
+  (let ((clearance (scene-parameter (projection-scene projection) :clearance)))
+    (destructuring-bind (low-lift shoulder extension)
+        (tip-configuration projection pose height what)
+      (destructuring-bind (high-lift &rest more)
+          (tip-configuration projection pose (+ height clearance) what)
+        (declare (ignore more))
+        (let ((robot (projection-robot projection)))
+          (move-arm projection high-lift (joint-position robot :shoulder)
+                    (joint-position robot :extension))
+          (move-arm projection high-lift shoulder (joint-position robot :extension))
+          (move-arm projection high-lift shoulder extension)
+          (move-arm projection low-lift shoulder extension)
+          (funcall function)
+          (move-arm projection high-lift shoulder extension)
+          (retract-arm projection high-lift))))))
+
+(defun designated-item (projection designator)
+  "Return the name of the item that the object designator DESIGNATOR means, by :name or :type."
+  (let ((name (and designator
+                   (or (plan:desig-prop-value designator :name)
+                       (plan:desig-prop-value designator :type)))))
+    (if (and name (assoc name (projection-items projection)))
+        name
+        (plan:fail 'plan:perception-object-not-found
+                   :description (format nil "there is no ~(~a~)" (or name "object"))))))
+
+(defmethod execute-designator ((projection projection) (class (eql :action))
+                               (type (eql :picking-up)) designator)
+  (let* ((name (designated-item projection (plan:desig-prop-value designator :object)))
+         (body (cdr (assoc name (projection-items projection))))
+         (pose (bullet:body-pose body))
+         (what (format nil "the ~(~a~)" name)))
+    (when (projection-grasp projection)
+      (plan:fail 'plan:gripper-goal-not-reached
+                 :description (format nil "the gripper holds the ~(~a~)" (held-item projection))))
+    (check-reach projection pose what)
+    (visit projection pose (+ (/ (item-height projection name) 2) *grasp-gap*) what
+           (lambda ()
+             (setf (projection-grasp projection)
+                   (cons name (bullet:attach (gripper-body (projection-robot projection))
+                                             body)))))
+    name))
+
+(defmethod execute-designator ((projection projection) (class (eql :action))
+                               (type (eql :placing)) designator)
+  (let ((target (plan:designated-pose (plan:desig-prop-value designator :target)))
+        (name (held-item projection)))
+    (unless target
+      (misunderstood designator "an action of type placing needs a target with a pose"))
+    (unless name
+      (plan:fail 'plan:gripper-closed-completely :description "the gripper holds nothing to place"))
+    (check-reach projection target "the target")
+    (visit projection target
+           (+ (/ (item-height projection name) 2) *grasp-gap* *release-gap*) "the target"
+           (lambda ()
+             (bullet:detach (cdr (projection-grasp projection)))
+             (setf (projection-grasp projection) nil)
+             (settle projection)))
+    name))

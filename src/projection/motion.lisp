@@ -1,0 +1,41 @@
+;;;; Motion profiles: how far something has got after a time.
+;;;;
+;;;; A move of a given length runs at a trapezoidal velocity profile: constant acceleration up to a
+;;;; speed, constant speed, constant deceleration; a short move never reaches the speed.
+
+(in-package #:discrepancy-finder.projection)
+
+(defun profile-duration (length speed acceleration)
+  "Return the seconds that a move over LENGTH takes at most SPEED with ACCELERATION."
+  (declare (double-float length speed acceleration))
+  (if (<= length (/ (* speed speed) acceleration))
+      (* 2 (sqrt (/ length acceleration)))
+      (+ (/ length speed) (/ speed acceleration))))
+
+(defun profile-fraction (time length speed acceleration)
+  "Return the part, 0 to 1, of a move over LENGTH that is done at TIME."
+  (declare (double-float time length speed acceleration))
+  (let* ((duration (profile-duration length speed acceleration))
+         (ramp (min (/ speed acceleration) (/ duration 2)))
+         (distance (cond ((<= time 0) 0d0)
+                         ((< time ramp) (* 0.5d0 acceleration time time))
+                         ((< time (- duration ramp))
+                          (+ (* 0.5d0 acceleration ramp ramp)
+                             (* acceleration ramp (- time ramp))))
+                         ((< time duration)
+                          (- length (* 0.5d0 acceleration (expt (- duration time) 2))))
+                         (t length))))
+    (if (zerop length) 1d0 (min 1d0 (/ distance length)))))
+
+(defun call-along-profile (function length speed acceleration)
+  "Call FUNCTION with the part of a move over LENGTH that is done after each simulation step, until
+it returns true or the move is done.  Return what it returned last."
+  (if (zerop length)
+      nil
+      (let ((steps (ceiling (/ (profile-duration length speed acceleration) +time-step+))))
+        (loop for step from 1 to steps
+              for fraction = (if (= step steps)
+                                 1d0
+                                 (profile-fraction (* step (float +time-step+ 1d0))
+                                                   length speed acceleration))
+                thereis (funcall function fraction)))))

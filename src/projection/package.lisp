@@ -1,0 +1,21 @@
+(defpackage #:discrepancy-finder.projection
+  (:documentation "Projection: plans executed in a physical world.")
+  (:use #:cl #:discrepancy-finder.geometry)
+  (:local-nicknames (#:bullet #:discrepancy-finder.bullet)
+                    (#:plan #:discrepancy-finder.plan-language)
+                    (#:source #:discrepancy-finder.source))
+  (:export
+   ;; scenes
+   #:load-scene #:scene #:scene-name #:scene-file #:scene-parameters #:scene-parameter
+   #:scene-with-parameters #:scene-item #:scene-body-pose #:scene-item-names #:scene-robot-name
+   ;; URDF
+   #:read-urdf #:urdf-model #:urdf-model-name #:urdf-link #:urdf-joint
+   ;; projections
+   #:projection #:make-projection #:close-projection #:with-projection #:projection-world
+   #:projection-scene #:observed-pose #:held-item #:settle #:interpenetration #:state-hash
+   #:simulated-seconds
+   ;; process modules
+   #:execute-designator #:drive-base #:move-arm
+   ;; conditions
+   #:projection-error #:scene-error #:scene-error-file #:scene-error-reason #:urdf-error
+   #:unknown-parameter #:unknown-body))

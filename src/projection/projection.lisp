@@ -1,0 +1,146 @@
+;;;; A projection: a scene built as a Bullet world, ready to have plans performed in it.
+;;;;
+;;;; MAKE-PROJECTION builds a world anew for every sample, so that the same sample gives the same
+;;;; bits.  A projection is an executive: performing a designator calls EXECUTE-DESIGNATOR, which
+;;;; the process modules of navigation.lisp and manipulation.lisp implement.  What the abstraction
+;;;; wants to know of the outcome it asks through OBSERVED-POSE and HELD-ITEM.
+
+(in-package #:discrepancy-finder.projection)
+
+(defconstant +time-step+ 1/240
+  "The length of a simulation step, in s.")
+
+(defclass projection ()
+  ((scene :initarg :scene :reader projection-scene :type scene)
+   (world :initarg :world :reader projection-world)
+   (robot :initarg :robot :reader projection-robot)
+   (fixtures :initarg :fixtures :reader projection-fixtures)
+   (items :initarg :items :reader projection-items
+          :documentation "List of (name . body).")
+   (grasp :initform nil :accessor projection-grasp
+          :documentation "What the gripper holds: (item-name . attachment), or NIL."))
+  (:documentation "A scene as a physical world, in which plans are performed."))
+
+(defmethod print-object ((projection projection) stream)
+  (print-unreadable-object (projection stream :type t :identity t)
+    (format stream "of ~(~a~) at ~,2f s~@[, holding ~(~a~)~]"
+            (scene-name (projection-scene projection)) (simulated-seconds projection)
+            (held-item projection))))
+
+(defun part-pose (part poses)
+  (getf poses (scene-part-name part) (scene-part-pose part)))
+
+(defun add-model (part pose world kind mass)
+  "Add the links of a model without moving joints to WORLD and return the last body."
+  (let ((robot (make-instance 'robot :part part :base-pose pose))
+        (body nil))
+    (map-link-poses
+     (lambda (name link-pose)
+       (let ((link (find name (urdf-model-links (scene-part-model part))
+                         :key #'urdf-link-name :test #'string=)))
+         (when (urdf-link-shape link)
+           (setf body (bullet:add-body world (link-body-name robot name) (urdf-link-shape link)
+                                       link-pose :kind kind :mass mass)))))
+     robot)
+    body))
+
+(defun make-projection (scene &key poses)
+  "Return a new PROJECTION of SCENE.  POSES is a property list of poses that replace the scene's
+own, by the name (a keyword) of the robot or item.  Signals BULLET-ERROR for impossible numbers."
+  (let* ((world (bullet:make-world :time-step +time-step+))
+         (part (scene-robot scene))
+         (robot (and part (make-instance 'robot :part part :base-pose (part-pose part poses)))))
+    (bullet:add-body world "ground" '(:plane 0d0 0d0 1d0 0d0) (identity-pose) :kind :static)
+    (let ((fixtures (loop for part in (parts-of-kind scene :fixture)
+                          collect (add-model part (part-pose part poses) world :static 0d0))))
+      (when robot (add-robot-links robot world))
+      (make-instance
+       'projection
+       :scene scene :world world :robot robot :fixtures fixtures
+       :items (loop for part in (parts-of-kind scene :item)
+                    collect (cons (scene-part-name part)
+                                  (add-model part (part-pose part poses) world :dynamic
+                                             (urdf-link-mass
+                                              (first (urdf-model-links
+                                                      (scene-part-model part)))))))))))
+
+(defun close-projection (projection)
+  "Free the world of PROJECTION."
+  (bullet:close-world (projection-world projection)))
+
+(defmacro with-projection ((projection scene &rest options) &body body)
+  "Evaluate BODY with PROJECTION bound to a new projection of SCENE, which is closed afterwards.
+OPTIONS are those of MAKE-PROJECTION.  The float traps of Bullet are set once, here."
+  `(bullet:with-bullet-float-traps
+     (let ((,projection (make-projection ,scene ,@options)))
+       (unwind-protect (progn ,@body)
+         (close-projection ,projection)))))
+
+;;; What can be seen of the outcome
+
+(defun observed-pose (projection name)
+  "Return the pose of the robot's base or of the item NAME, a symbol, in PROJECTION.  Signals
+UNKNOWN-BODY."
+  (let ((name (keyword-for name))
+        (scene (projection-scene projection)))
+    (cond ((eq name (scene-robot-name scene)) (base-pose (projection-robot projection)))
+          ((assoc name (projection-items projection))
+           (bullet:body-pose (cdr (assoc name (projection-items projection)))))
+          (t (error 'unknown-body :name name :scene (scene-name scene))))))
+
+(defun held-item (projection)
+  "Return the name (a keyword) of the item that the robot holds in PROJECTION, or NIL."
+  (car (projection-grasp projection)))
+
+(defun simulated-seconds (projection)
+  "Return the time (s) that has passed in PROJECTION."
+  (bullet:world-time (projection-world projection)))
+
+(defun state-hash (projection)
+  "Return a 64-bit number that depends on every bit of the state of PROJECTION's bodies."
+  (bullet:state-hash (projection-world projection)))
+
+(defun interpenetration (projection)
+  "Return the depth (m) by which bodies of PROJECTION penetrate each other at the worst place, and
+the names of the two bodies.  The robot's links and the fixtures count, too."
+  (multiple-value-bind (depth one other) (bullet:deepest-penetration (projection-world projection))
+    (let ((worst depth)
+          (names (and one (list (bullet:body-name one) (bullet:body-name other)))))
+      (dolist (fixture (projection-fixtures projection) (values worst names))
+        (when (and fixture (projection-robot projection))
+          (loop for (nil . link) in (link-bodies (projection-robot projection))
+                for depth = (bullet:penetration link fixture)
+                when (> depth worst)
+                  do (setf worst depth
+                           names (list (bullet:body-name link) (bullet:body-name fixture)))))))))
+
+;;; Time
+
+(defun settle (projection &key (limit 2))
+  "Let PROJECTION run until everything in it rests, for LIMIT seconds at the most.  Return true if
+it rests."
+  (let ((world (projection-world projection)))
+    (loop repeat (ceiling limit +time-step+)
+          until (bullet:at-rest-p world)
+          do (bullet:step-world world))
+    (bullet:at-rest-p world)))
+
+;;; Performing
+
+(defgeneric execute-designator (projection class type designator)
+  (:documentation "Execute DESIGNATOR, of CLASS :motion or :action and TYPE (a keyword), in
+PROJECTION.  A process module is a set of methods on this function.  Signals a PLAN-FAILURE if the
+execution fails, DESIGNATOR-NOT-UNDERSTOOD if it cannot be interpreted.")
+  (:method ((projection projection) class type designator)
+    (error 'plan:designator-not-understood
+           :designator designator :executive "The projection"
+           :reason (format nil "no process module is for ~(~a~)s of type ~(~a~)" class type))))
+
+(defmethod plan:perform-with ((projection projection) designator position)
+  (declare (ignore position))
+  (execute-designator projection (plan:designator-class-keyword designator)
+                      (plan:desig-prop-value designator :type) designator))
+
+(defun misunderstood (designator reason)
+  (error 'plan:designator-not-understood :designator designator :executive "The projection"
+                                         :reason reason))

@@ -1,0 +1,172 @@
+;;;; Scenes: which URDF models stand where, and the parameters of the robot.
+;;;;
+;;;; A scene file holds one DEFINE-SCENE form, read as data:
+;;;;   (define-scene NAME [documentation]
+;;;;     (:parameters (NAME value [documentation])*)
+;;;;     (:fixture NAME "file.urdf" (:at x y z [yaw]))     what never moves
+;;;;     (:item NAME "file.urdf" (:at x y z [yaw]))        a rigid body; its name is also its type
+;;;;     (:robot NAME "file.urdf" (:at x y z [yaw]) (:lift JOINT) (:shoulder JOINT)
+;;;;             (:extension JOINT) (:gripper LINK)))
+;;;; File names are relative to the scene's file.  LOAD-SCENE reads it.
+
+(in-package #:discrepancy-finder.projection)
+
+(defstruct (scene-part (:copier nil))
+  "A model of a scene: KIND is :fixture, :item or :robot; ROLES names joints and links of a robot."
+  (name nil :type keyword :read-only t)
+  (kind :item :type keyword :read-only t)
+  (model nil :type urdf-model :read-only t)
+  (pose nil :type pose :read-only t)
+  (roles '() :type list :read-only t))
+
+(defstruct (scene (:copier nil))
+  "What stands where.  PARAMETERS is a list of (name value documentation)."
+  (name nil :type keyword :read-only t)
+  (documentation nil :type (or null string) :read-only t)
+  (file "" :type string :read-only t)
+  (parts '() :type list :read-only t)
+  (parameters '() :type list :read-only t))
+
+(defmethod print-object ((scene scene) stream)
+  (print-unreadable-object (scene stream :type t)
+    (format stream "~(~a~):~{ ~(~a~)~}" (scene-name scene)
+            (mapcar #'scene-part-name (scene-parts scene)))))
+
+(defun keyword-for (symbol)
+  (intern (symbol-name symbol) :keyword))
+
+(defun scene-parameter (scene name)
+  "Return the value, a double float, of the parameter NAME (a symbol) of SCENE.  Signals
+UNKNOWN-PARAMETER."
+  (let ((entry (find (symbol-name name) (scene-parameters scene)
+                     :key (lambda (entry) (symbol-name (first entry))) :test #'string=)))
+    (if entry
+        (second entry)
+        (error 'unknown-parameter :name name :scene (scene-name scene)
+                                  :known (mapcar #'first (scene-parameters scene))))))
+
+(defun scene-with-parameters (scene values)
+  "Return SCENE with the parameters in VALUES, a property list of names and reals, changed.  Signals
+UNKNOWN-PARAMETER."
+  (loop for (name) on values by #'cddr do (scene-parameter scene name))
+  (make-scene :name (scene-name scene) :documentation (scene-documentation scene)
+              :file (scene-file scene) :parts (scene-parts scene)
+              :parameters (loop for (name value . more) in (scene-parameters scene)
+                                for new = (getf values name)
+                                collect (list* name (if new (float new 1d0) value) more))))
+
+(defun scene-part (scene name)
+  "Return the part NAME, a symbol, of SCENE.  Signals UNKNOWN-BODY."
+  (or (find (keyword-for name) (scene-parts scene) :key #'scene-part-name)
+      (error 'unknown-body :name name :scene (scene-name scene))))
+
+(defun scene-body-pose (scene name)
+  "Return the pose at which SCENE has the robot or item NAME, a symbol.  Signals UNKNOWN-BODY."
+  (scene-part-pose (scene-part scene name)))
+
+(defun parts-of-kind (scene kind)
+  (remove kind (scene-parts scene) :key #'scene-part-kind :test-not #'eq))
+
+(defun scene-item-names (scene)
+  "Return the list of the names (keywords) of SCENE's items."
+  (mapcar #'scene-part-name (parts-of-kind scene :item)))
+
+(defun scene-robot (scene)
+  (first (parts-of-kind scene :robot)))
+
+(defun scene-robot-name (scene)
+  "Return the name (a keyword) of SCENE's robot, or NIL if it has none."
+  (and (scene-robot scene) (scene-part-name (scene-robot scene))))
+
+;;; Reading
+
+(defun scene-problem (file form control &rest arguments)
+  (let ((position (source:form-position form)))
+    (error 'scene-error :file (namestring file)
+                        :line (and position (source:source-position-line position))
+                        :reason (apply #'format nil control arguments))))
+
+(defun option-value (clause name file)
+  "Return the arguments of the option NAME of CLAUSE."
+  (let ((option (find name (cdddr clause)
+                      :key (lambda (option) (and (consp option) (first option))))))
+    (unless option
+      (scene-problem file clause "~(~s~) ~(~a~) needs an option (~(~s~) ...)"
+                     (first clause) (second clause) name))
+    (rest option)))
+
+(defun clause-pose (clause file)
+  (let ((numbers (option-value clause :at file)))
+    (unless (and (<= 3 (length numbers) 4) (every #'realp numbers))
+      (scene-problem file clause "(:at x y z [yaw]) was expected in ~(~s~) ~(~a~)"
+                     (first clause) (second clause)))
+    (destructuring-bind (x y z &optional (yaw 0)) numbers
+      (make-pose x y z :yaw yaw))))
+
+(defun model-names (model)
+  (append (mapcar #'urdf-joint-name (urdf-model-joints model))
+          (mapcar #'urdf-link-name (urdf-model-links model))))
+
+(defun robot-roles (clause model file)
+  (loop for role in '(:lift :shoulder :extension :gripper)
+        for name = (first (option-value clause role file))
+        do (unless (member name (model-names model) :test #'equal)
+             (scene-problem file clause "~(~s~) ~s: ~a has no such joint or link"
+                            role name (urdf-model-file model)))
+        collect role collect name))
+
+(defun parse-part (clause file)
+  (destructuring-bind (kind &optional name model-file &rest options) clause
+    (unless (and (symbolp name) name (stringp model-file) (every #'consp options))
+      (scene-problem file clause "(~(~s~) name \"file.urdf\" option*) was expected" kind))
+    (let ((model (read-urdf (merge-pathnames model-file file))))
+      (when (and (eq kind :item)
+                 (not (and (= (length (urdf-model-links model)) 1)
+                           (urdf-link-shape (first (urdf-model-links model)))
+                           (plusp (urdf-link-mass (first (urdf-model-links model)))))))
+        (scene-problem file clause "the item ~(~a~) must have one link, with a mass and a shape"
+                       name))
+      (make-scene-part :name (keyword-for name) :kind kind :model model
+                       :pose (clause-pose clause file)
+                       :roles (and (eq kind :robot) (robot-roles clause model file))))))
+
+(defun parse-parameter (entry file)
+  (unless (and (consp entry) (symbolp (first entry)) (realp (second entry)))
+    (scene-problem file entry "(name number [documentation]) was expected in :parameters"))
+  (list* (keyword-for (first entry)) (float (second entry) 1d0) (cddr entry)))
+
+(defun parse-scene (form file)
+  (destructuring-bind (name &rest clauses) (rest form)
+    (let ((documentation (and (stringp (first clauses)) (pop clauses)))
+          (parts '())
+          (parameters '()))
+      (dolist (clause clauses)
+        (case (and (consp clause) (first clause))
+          ((:fixture :item :robot) (push (parse-part clause file) parts))
+          (:parameters (setf parameters
+                             (append parameters (mapcar (lambda (entry)
+                                                          (parse-parameter entry file))
+                                                        (rest clause)))))
+          (t (scene-problem file (if (consp clause) clause form)
+                            "~(~s~) was found where :parameters, :fixture, :item or :robot was ~
+                             expected"
+                            (if (consp clause) (first clause) clause)))))
+      (let ((names (mapcar #'scene-part-name parts)))
+        (unless (= (length names) (length (remove-duplicates names)))
+          (scene-problem file form "two parts have the same name")))
+      (unless (<= (count :robot parts :key #'scene-part-kind) 1)
+        (scene-problem file form "there can be one robot only"))
+      (make-scene :name (keyword-for name) :documentation documentation :file (namestring file)
+                  :parts (nreverse parts) :parameters parameters))))
+
+(defun load-scene (file)
+  "Return the SCENE in FILE.  Nothing in it is evaluated.  Signals SOURCE-ERROR, SCENE-ERROR or
+URDF-ERROR, which name the file."
+  (let ((forms (source:read-source file :package '#:discrepancy-finder.projection)))
+    (unless (and (= (length forms) 1) (consp (first forms))
+                 (symbolp (first (first forms)))
+                 (string= (first (first forms)) "DEFINE-SCENE")
+                 (second (first forms)) (symbolp (second (first forms))))
+      (error 'scene-error :file (namestring file)
+                          :reason "one form (define-scene name clause*) was expected"))
+    (parse-scene (first forms) file)))
