@@ -94,7 +94,8 @@ The environment variable CXX names another compiler than g++."))
   :pathname "bullet-ffi/"
   :serial t
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
-               (:file "package")))
+               (:file "package") (:file "conditions") (:file "raw") (:file "world")
+               (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."

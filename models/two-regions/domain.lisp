@@ -4,13 +4,15 @@
 (in-package #:discrepancy-finder-user)
 
 (define-abstraction two-regions
-  "Regions bound x only.  The box lies on the bench, at y = 0.4 m give or take 2 cm."
+  "Regions bound x only.  The robot stands on the line y = 0, along which it drives, and looks along
+it give or take 0.1 rad.  The box lies on the bench, at y = 0.4 m give or take 2 cm, turned anyhow."
   (:theory "theory.lisp")
   (:scene "scene.lisp")
   (:region r1 (interval :x 0 1))
   (:region r2 (interval :x 1 2))
-  (:placement (robot-in ?region) :body robot :coordinates (x))
-  (:placement (box-in ?region) :body box :coordinates (x (y 0.38 0.42)))
+  (:placement (robot-in ?region) :body robot :coordinates (x (yaw -0.1 0.1)))
+  (:placement (box-in ?region) :body box
+              :coordinates (x (y 0.38 0.42) (yaw -3.14159 3.14159)))
   (:attachment (holding-box) :item box))
 
 (define-action (motion going) (pose target)

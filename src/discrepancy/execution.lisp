@@ -111,7 +111,7 @@ a sentence that says why not."
                                differing (null (rest differing))))
             (t :valid)))))
 
-(defun final-values (domain projection trace)
+(defun observed-final-values (domain projection trace)
   (coerce (loop for parameter in (final-parameters domain trace)
                 collect (coordinate (projection:observed-pose projection
                                                               (parameter-body parameter))
@@ -140,7 +140,7 @@ steps; EXECUTION is :TRACE or :PLAN.  The same arguments give the same bits."
                (make-run :sample sample :validity validity :ending ending
                          :initial-state initial-state :steps steps
                          :final-state (discrete-state domain projection)
-                         :final-values (if trace (final-values domain projection trace) #())
+                         :final-values (if trace (observed-final-values domain projection trace) #())
                          :hash (projection:state-hash projection)
                          :seconds (float (projection:simulated-seconds projection) 1d0))))
         (if (eq validity :valid)

@@ -140,12 +140,9 @@
           (keyword-of object "verdict" '(:discrepancy :left-trace :consistent)))))
 
 (defun changed-files (object)
-  "Return the names of the plan's and the domain's files whose text has changed since."
-  (loop for key in '("plan" "domain")
-        for part = (value-of object key 'list)
-        for file = (json:get-key part "file")
-        for hash = (json:get-key part "hash")
-        when (and (stringp file) (stringp hash) (not (equal hash (file-hash file))))
+  "Return the names of the files whose text has changed since the discrepancy was stored."
+  (loop for (file . hash) in (value-of object "files" 'list)
+        unless (equal hash (json-or-null (file-hash file)))
           collect file))
 
 (defun parse-replay (object)

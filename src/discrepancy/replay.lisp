@@ -12,10 +12,20 @@
 
 (defun file-hash (file)
   "Return the hash of the text in FILE, or NIL if it cannot be read."
-  (let ((located (and file (locate-file file))))
+  (let ((located (locate-file file)))
     (and located
          (ignore-errors (hash-text (content-hash (uiop:read-file-string
                                                   located :external-format :utf-8)))))))
+
+(defun plan-file (plan)
+  "Return the name of the file that defines PLAN, or NIL."
+  (and (plan:plan-position plan) (source:source-position-file (plan:plan-position plan))))
+
+(defun source-files (plan domain)
+  "Return the names of the files that the runs of PLAN in DOMAIN depend on."
+  (remove nil (list* (plan-file plan) (domain-file domain)
+                     (ec:theory-file (symbolic:action-theory-theory domain))
+                     (projection:scene-files (domain-scene domain)))))
 
 ;;; Writing
 
@@ -57,17 +67,15 @@
 (defun discrepancy-json (discrepancy)
   (let* ((plan (discrepancy-plan discrepancy))
          (domain (discrepancy-domain discrepancy))
-         (run (discrepancy-run discrepancy))
-         (position (plan:plan-position plan))
-         (plan-file (and position (source:source-position-file position))))
+         (run (discrepancy-run discrepancy)))
     (json:object
      "format" *replay-format*
      "plan" (json:object "name" (ec:name-text (plan:plan-name plan))
-                         "file" (json-or-null plan-file)
-                         "hash" (json-or-null (file-hash plan-file)))
+                         "file" (json-or-null (plan-file plan)))
      "domain" (json:object "name" (ec:name-text (symbolic:action-theory-name domain))
-                           "file" (json-or-null (domain-file domain))
-                           "hash" (json-or-null (file-hash (domain-file domain))))
+                           "file" (json-or-null (domain-file domain)))
+     "files" (loop for file in (source-files plan domain)
+                   collect (cons file (json-or-null (file-hash file))))
      "constraint" (ec:name-text (discrepancy-constraint discrepancy))
      "parameters" (loop for (name value) on (discrepancy-parameters discrepancy) by #'cddr
                         collect (cons (ec:name-text name) (float value 1d0)))
@@ -85,7 +93,7 @@
 
 (defun write-file-whole (file text)
   "Write TEXT to FILE, which either keeps its old content or gets all of the new."
-  (let* ((file (merge-pathnames file))
+  (let* ((file (uiop:ensure-absolute-pathname file (uiop:getcwd)))
          (temporary (make-pathname :type "part" :defaults file)))
     (ensure-directories-exist file)
     (with-open-file (stream temporary :direction :output :if-exists :supersede
@@ -122,8 +130,8 @@ discrepancies/, under a name made of plan, seed and state hash."
 (defun replay (file)
   "Run the discrepancy stored in FILE again and return a REPLAY-RESULT.  Plan and domain are loaded
 from the files that it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
-  (destructuring-bind (&key plan domain parameters trace constraint execution compare seed sample
-                         recorded changed-files)
+  (destructuring-bind (&key plan domain parameters trace constraint execution compare (seed 0)
+                         sample recorded changed-files)
       (read-replay-file file)
     (let* ((run (execute-sample domain (plan:plan-name plan) sample
                                 :trace trace :execution execution

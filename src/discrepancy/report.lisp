@@ -8,10 +8,17 @@
 (defun state-text (atoms)
   (format nil "~:[nothing~;~:*~{~a~^ ~}~]" (mapcar #'ec:atom-text atoms)))
 
+(defun number-text (number)
+  "Return the shortest decimal text of the real NUMBER."
+  (let ((*read-default-float-format* 'double-float))
+    (princ-to-string (if (integerp number) number (float number 1d0)))))
+
 (defun parameters-text (parameters)
   "Return a text for the property list PARAMETERS of scene parameters, or NIL."
   (and parameters
-       (format nil "~{~(~a~) = ~a~^, ~}" parameters)))
+       (format nil "~{~a~^, ~}"
+               (loop for (name value) on parameters by #'cddr
+                     collect (format nil "~a = ~a" (ec:name-text name) (number-text value))))))
 
 (defun source-text (name position-or-file)
   (format nil "~(~a~)~@[ (~a)~]" name (and position-or-file (princ-to-string position-or-file))))
@@ -109,7 +116,7 @@ and simulation part, both final states, and how COMMAND replays it."
               (parameters-text (result-parameters result)))
       (format stream "  state constraint ~a, rule ~(~a~), confidence ~a, seed ~d~%"
               (ec:name-text (result-constraint result)) (result-rule-name result)
-              (result-confidence result) (result-seed result))
+              (number-text (result-confidence result)) (result-seed result))
       (format stream "  ~d iteration~:p, ~d simulation~:p~%" (result-iterations result)
               (result-simulations result))
       (format stream "  ~,3f s in symbolic execution, ~,3f s in simulation~%"

@@ -126,8 +126,21 @@ top-level plans, a name; or a name."
     (terpri stream)
     (arguments:show-option-help (subcommand-options subcommand) :stream stream)))
 
+(defun options-first (words)
+  "Return WORDS with the options, each with its value, before the other words.  Every option of the
+subcommands takes a value."
+  (let ((options '()) (others '()))
+    (loop while words
+          for word = (pop words)
+          do (cond ((not (uiop:string-prefix-p "--" word)) (push word others))
+                   ((find #\= word) (push word options))
+                   ((null words) (usage-problem "~a needs a value." word))
+                   (t (push word options) (push (pop words) options))))
+    (append (nreverse options) (nreverse others))))
+
 (defun parse-options (subcommand words)
-  (handler-case (arguments:process-command-line-options (subcommand-options subcommand) words)
+  (handler-case (arguments:process-command-line-options (subcommand-options subcommand)
+                                                        (options-first words))
     (error (condition) (usage-problem "~a" (source:condition-sentence condition)))))
 
 (defun run-subcommand (words)
@@ -149,7 +162,8 @@ top-level plans, a name; or a name."
                    (funcall (subcommand-function subcommand) arguments options))))))))
 
 (defun complain (condition)
-  (format *error-output* "discrepancy-finder: ~a~%" (source:condition-sentence condition)))
+  (format *error-output* "discrepancy-finder: ~a.~%"
+          (string-right-trim "." (source:condition-sentence condition))))
 
 (defun call-with-exit-status (function)
   "Call FUNCTION, which returns an exit status; return that, or the status that an error means."
@@ -162,7 +176,8 @@ top-level plans, a name; or a name."
 (defun main ()
   "Run the command line of the executable and leave the process with the exit status."
   (sb-ext:disable-debugger)
-  (setf *default-pathname-defaults* #p"")
+  (setf *default-pathname-defaults* #p""
+        *read-default-float-format* 'double-float)
   (let ((status (call-with-exit-status
                  (lambda ()
                    (foreign:open-libraries)

@@ -26,7 +26,7 @@ build folder, and the build folder itself, which holds copies."
 (defun save-executable (file)
   "Save the running Lisp as the executable FILE, with plans and models beside it, and end the
 process.  The foreign libraries are closed first and opened again when the executable starts."
-  (copy-data (make-pathname :name nil :type nil :version nil :defaults (truename file)))
+  (copy-data (make-pathname :name nil :type nil :version nil :defaults file))
   (foreign:close-libraries)
   (let ((temporary (make-pathname :type "new" :defaults file)))
     (sb-ext:save-lisp-and-die temporary :toplevel #'main :executable t

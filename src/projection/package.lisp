@@ -3,10 +3,11 @@
   (:use #:cl #:discrepancy-finder.geometry)
   (:local-nicknames (#:bullet #:discrepancy-finder.bullet)
                     (#:plan #:discrepancy-finder.plan-language)
-                    (#:source #:discrepancy-finder.source))
+                    (#:source #:discrepancy-finder.source)
+                    (#:foreign #:discrepancy-finder.foreign))
   (:export
    ;; scenes
-   #:load-scene #:scene #:scene-name #:scene-file #:scene-parameters #:scene-parameter
+   #:load-scene #:scene #:scene-name #:scene-file #:scene-files #:scene-parameters #:scene-parameter
    #:scene-with-parameters #:scene-item #:scene-body-pose #:scene-item-names #:scene-robot-name
    ;; URDF
    #:read-urdf #:urdf-model #:urdf-model-name #:urdf-link #:urdf-joint

@@ -70,8 +70,8 @@ own, by the name (a keyword) of the robot or item.  Signals BULLET-ERROR for imp
 
 (defmacro with-projection ((projection scene &rest options) &body body)
   "Evaluate BODY with PROJECTION bound to a new projection of SCENE, which is closed afterwards.
-OPTIONS are those of MAKE-PROJECTION.  The float traps of Bullet are set once, here."
-  `(bullet:with-bullet-float-traps
+OPTIONS are those of MAKE-PROJECTION.  The float traps of C are set once, here."
+  `(foreign:with-c-float-traps
      (let ((,projection (make-projection ,scene ,@options)))
        (unwind-protect (progn ,@body)
          (close-projection ,projection)))))

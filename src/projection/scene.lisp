@@ -78,6 +78,13 @@ UNKNOWN-PARAMETER."
   "Return the name (a keyword) of SCENE's robot, or NIL if it has none."
   (and (scene-robot scene) (scene-part-name (scene-robot scene))))
 
+(defun scene-files (scene)
+  "Return the names of the files that SCENE was read from: its own and those of its models."
+  (cons (scene-file scene)
+        (remove-duplicates (mapcar (lambda (part) (urdf-model-file (scene-part-model part)))
+                                   (scene-parts scene))
+                           :test #'string= :from-end t)))
+
 ;;; Reading
 
 (defun scene-problem (file form control &rest arguments)

@@ -166,7 +166,7 @@ region of a pose or of a location designator."
          :class ,(ec:name-keyword class) :type ,(ec:name-keyword type)
          :describe-outcomes
          (lambda (domain designator)
-           (declare (ignorable domain))
+           (declare (ignorable domain designator))
            (let ,(loop for property in properties
                        collect `(,property (plan:desig-prop-value
                                             designator ,(ec:name-keyword property))))

@@ -1,0 +1,16 @@
+(in-package #:discrepancy-finder.bullet)
+
+(define-condition bullet-error (error)
+  ((operation :initarg :operation :reader bullet-error-operation
+              :documentation "The symbol that names the function that was called.")
+   (reason :initarg :reason :reader bullet-error-reason
+           :documentation "What was wrong with the call, as a string that names the thing."))
+  (:report (lambda (condition stream)
+             (format stream "~(~a~) failed: ~a." (bullet-error-operation condition)
+                     (bullet-error-reason condition))))
+  (:documentation "Signaled when a call makes no sense: a closed world, a malformed shape, a number
+that is not finite, a body of another world.  The world is as it was before the call."))
+
+(defun fail (operation control &rest arguments)
+  "Signal a BULLET-ERROR of OPERATION with the reason that CONTROL and ARGUMENTS format."
+  (error 'bullet-error :operation operation :reason (apply #'format nil control arguments)))

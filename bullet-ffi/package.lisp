@@ -1,0 +1,26 @@
+(defpackage #:discrepancy-finder.bullet
+  (:documentation "Rigid-body worlds of the Bullet physics library: worlds, bodies, attachments and
+queries.  SI units and double floats everywhere; poses are those of DISCREPANCY-FINDER.GEOMETRY.
+Whatever is wrong with a call is signaled as BULLET-ERROR before Bullet sees it.  All functions may
+be called with SBCL's float traps on.  A world is for one thread at a time; equal calls in equal
+order give equal bits, in any thread or process, and queries change no later bit.")
+  (:use #:cl)
+  (:local-nicknames (#:foreign #:discrepancy-finder.foreign)
+                    (#:geometry #:discrepancy-finder.geometry))
+  (:export
+   ;; conditions
+   #:bullet-error #:bullet-error-operation #:bullet-error-reason
+   ;; worlds
+   #:world #:make-world #:close-world #:with-world #:step-world
+   #:world-time #:world-time-step #:world-bodies #:find-body
+   ;; bodies
+   #:body #:add-body #:body-world #:body-name #:body-shape #:body-kind #:body-mass
+   #:body-pose #:body-velocity #:move-body #:place-body
+   #:wake #:allow-sleep #:asleep-p #:ignore-collision
+   ;; attachments
+   #:attachment #:attach #:detach #:attachments #:attachment-parent #:attachment-child
+   #:attachment-live-p #:attachment-load
+   ;; states of whole worlds
+   #:make-state-vector #:read-state #:state-hash #:at-rest-p
+   ;; queries
+   #:penetration #:deepest-penetration #:cast-ray))

@@ -1,0 +1,73 @@
+;;;; The C API of the shim, function by function; discrepancy-finder-bullet.h documents them.
+;;;;
+;;;; All are inlined, because a full call would box each of the doubles that a pose is made of.
+
+(in-package #:discrepancy-finder.bullet)
+
+(foreign:define-library bullet-shim "the Bullet shim"
+    ((:beside "libdiscrepancy-finder-bullet.so"))
+  :hint "build it by loading the system, or by ./discrepancy-finder")
+
+(defmacro define-raw (lisp-name c-name result &rest arguments)
+  "Define the inlined function LISP-NAME that calls C-NAME.  In ARGUMENTS, :POSE stands for the
+seven doubles of a pose."
+  `(progn
+     (declaim (inline ,lisp-name))
+     (cffi:defcfun (,c-name ,lisp-name) ,result
+       ,@(loop for argument in arguments
+               if (eq argument :pose)
+                 append '((x :double) (y :double) (z :double)
+                          (qx :double) (qy :double) (qz :double) (qw :double))
+               else
+                 collect argument))))
+
+(define-raw %world-new "dfb_world_new" :pointer (gravity :double) (time-step :double))
+(define-raw %world-delete "dfb_world_delete" :int (world :pointer))
+(define-raw %step "dfb_step" :int (world :pointer) (steps :int))
+
+(define-raw %shape-box "dfb_shape_box" :int
+  (world :pointer) (x :double) (y :double) (z :double))
+(define-raw %shape-sphere "dfb_shape_sphere" :int (world :pointer) (radius :double))
+(define-raw %shape-cylinder "dfb_shape_cylinder" :int
+  (world :pointer) (radius :double) (height :double))
+(define-raw %shape-plane "dfb_shape_plane" :int
+  (world :pointer) (nx :double) (ny :double) (nz :double) (d :double))
+(define-raw %shape-compound "dfb_shape_compound" :int
+  (world :pointer) (count :int) (children :pointer) (poses :pointer))
+
+(define-raw %body-new "dfb_body_new" :int
+  (world :pointer) (shape :int) (kind :int) :pose (mass :double)
+  (ix :double) (iy :double) (iz :double)
+  (friction :double) (rolling-friction :double) (restitution :double))
+(define-raw %body-move "dfb_body_move" :int (world :pointer) (body :int) :pose)
+(define-raw %body-place "dfb_body_place" :int (world :pointer) (body :int) :pose)
+(define-raw %body-wake "dfb_body_wake" :int (world :pointer) (body :int))
+(define-raw %body-allow-sleep "dfb_body_allow_sleep" :int
+  (world :pointer) (body :int) (flag :int))
+(define-raw %body-asleep "dfb_body_asleep" :int (world :pointer) (body :int))
+(define-raw %body-read "dfb_body_read" :int (world :pointer) (body :int) (state :pointer))
+
+(define-raw %state-read "dfb_state_read" :int (world :pointer) (states :pointer) (length :int))
+(define-raw %state-hash "dfb_state_hash" :int (world :pointer) (hash :pointer))
+(define-raw %at-rest "dfb_at_rest" :int (world :pointer))
+
+(define-raw %attach "dfb_attach" :int (world :pointer) (parent :int) (child :int))
+(define-raw %detach "dfb_detach" :int (world :pointer) (attachment :int))
+(define-raw %attachment-load "dfb_attachment_load" :int
+  (world :pointer) (attachment :int) (load :pointer))
+(define-raw %ignore-collision "dfb_ignore_collision" :int
+  (world :pointer) (a :int) (b :int) (flag :int))
+
+(define-raw %penetration "dfb_penetration" :int
+  (world :pointer) (a :int) (b :int) (depth :pointer))
+(define-raw %deepest-penetration "dfb_deepest_penetration" :int
+  (world :pointer) (depth :pointer) (a :pointer) (b :pointer))
+(define-raw %ray "dfb_ray" :int
+  (world :pointer) (fx :double) (fy :double) (fz :double) (tx :double) (ty :double) (tz :double)
+  (hit :pointer))
+
+(defun status-name (status)
+  "Return the keyword for a negative STATUS of the shim."
+  (ecase status
+    (-1 :bad-world) (-2 :bad-body) (-3 :bad-shape) (-4 :bad-constraint) (-5 :bad-number)
+    (-6 :bad-kind) (-7 :too-small) (-8 :no-memory) (-9 :nothing)))
