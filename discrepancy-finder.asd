@@ -101,7 +101,8 @@ The environment variable CXX names another compiler than g++."))
   :description "Files of Lisp forms, read with care and with positions."
   :pathname "src/source/"
   :serial t
-  :components ((:file "package") (:file "conditions") (:file "read")))
+  :components ((:file "package") (:file "conditions") (:file "destructuring")
+               (:file "read")))
 
 (asdf:defsystem "discrepancy-finder/event-calculus"
   :description "Theories of the Discrete Event Calculus."
@@ -154,10 +155,26 @@ The environment variable CXX names another compiler than g++."))
                (:file "replay-file")))
 
 (asdf:defsystem "discrepancy-finder/tests"
-  :description "The test suites, one a layer."
+  :description "The test suites, one a layer or subject."
   :depends-on ("discrepancy-finder" "fiveam")
   :pathname "tests/"
   :serial t
-  :components ((:file "package"))
+  :components ((:file "package") (:file "run") (:file "fixtures")
+               (:file "geometry") (:file "source") (:file "json") (:file "z3") (:file "z3-life")
+               (:file "event-calculus") (:file "plan-language") (:file "symbolic-execution")
+               (:file "bullet") (:file "projection")
+               (:module "discrepancy"
+                :serial t
+                :components ((:file "random") (:file "quantile") (:file "least-squares")
+                             (:file "confidence") (:file "abstraction") (:file "search")
+                             (:file "replay")))
+               (:file "interface"))
   :perform (asdf:test-op (operation system)
              (uiop:symbol-call '#:discrepancy-finder.tests '#:run-all-tests)))
+
+(asdf:defsystem "discrepancy-finder/bench"
+  :description "The benchmarks."
+  :depends-on ("discrepancy-finder")
+  :pathname "bench/"
+  :serial t
+  :components ((:file "package") (:file "steps") (:file "benchmarks")))

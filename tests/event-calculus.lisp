@@ -135,8 +135,8 @@
   (flet ((parse (&rest clauses) (ec::parse-theory 'lamp clauses)))
     (signals-with (ec:theory-error ":fluents" "no sort lamp") (parse '(:fluents (lit lamp))))
     (signals-with (ec:theory-error "twice") (parse '(:sorts (s a) (s b))))
-    (signals-with (ec:theory-error ":flunts" ":sorts") (parse '(:flunts (lit))))
-    (signals-with (ec:theory-error "axiom axiom-2" "no fluent") 
+    (signals-with (ec:theory-error "flunts was found" ":sorts") (parse '(:flunts (lit))))
+    (signals-with (ec:theory-error "axiom axiom-2" "no fluent")
       (parse '(:fluents (f)) '(:axioms (holds-at (f) ?time) (holds-at (g) ?time))))))
 
 (test theory-files
@@ -151,20 +151,13 @@
     (signals-with (source:source-error "no define-theory") (ec:load-theory file)))
   (with-file (file *theory-text*)
     (let ((theory (ec:load-theory file)))
-      (is (string= "#<THEORY lamp: 2 sorts, 3 fluents, 3 events, 7 axioms>"
-                   (remove-package-prefix (prin1-to-string theory))))
+      (is (search "THEORY lamp: 2 sorts, 3 fluents, 3 events, 7 axioms>"
+                  (prin1-to-string theory)))
       (is (eq theory (ec:find-theory 'lamp)))
       (is (= 1 (ec:state-constraint-span (ec:find-state-constraint nil theory))))
       (signals-with (ec:state-constraint-not-found "lamp-out" "lamp-lit")
         (ec:find-state-constraint 'lamp-out theory))))
   (signals-with (ec:theory-not-found "no-such-theory") (ec:find-theory 'no-such-theory)))
-
-(defun remove-package-prefix (text)
-  (let ((colon (position #\: text)))
-    (if (and colon (char= (char text 0) #\#) (char= (char text (1- (length text))) #\>)
-             (search "DISCREPANCY-FINDER" text :end2 colon))
-        (concatenate 'string "#<" (subseq text (1+ colon)))
-        text)))
 
 (test state-constraints
   (let ((theory (with-file (file *theory-text*) (ec:load-theory file))))

@@ -15,7 +15,7 @@
 (defun report-of (condition-class function)
   "Call FUNCTION and return the report of the condition of CONDITION-CLASS that it signals, or NIL."
   (handler-case (progn (funcall function) nil)
-    (condition (condition)
+    (serious-condition (condition)
       (if (typep condition condition-class)
           (princ-to-string condition)
           (format nil "~a: ~a" (type-of condition) condition)))))

@@ -1,6 +1,7 @@
 (defpackage #:discrepancy-finder.tests
   (:documentation "The tests of all layers: one FiveAM suite a layer, below the suite ALL.")
   (:use #:cl #:fiveam)
+  (:shadow #:run-all-tests)
   (:local-nicknames (#:geometry #:discrepancy-finder.geometry)
                     (#:foreign #:discrepancy-finder.foreign)
                     (#:source #:discrepancy-finder.source)

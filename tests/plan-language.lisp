@@ -103,13 +103,14 @@
 ;;; Designators
 
 (test designators
-  (let* ((?pose (geometry:make-pose 1 2 3))
+  (let* ((pose (geometry:make-pose 1 2 3))
+         (?pose pose)
          (?type :box)
          (designator (plan:a motion (type going) (pose ?pose) (via first) (speed 2)
                                   (via (left right)) (object (plan:an object (type ?type))))))
     (is (eq :motion (plan:designator-class-keyword designator)))
     (is (eq :going (plan:desig-prop-value designator :type)))
-    (is (eq ?pose (plan:desig-prop-value designator :pose)))
+    (is (eq pose (plan:desig-prop-value designator :pose)))
     (is (eql 2 (plan:desig-prop-value designator :speed)))
     (is (equal '(:first (:left :right)) (plan:desig-prop-values designator :via)))
     (is (eq :box (plan:desig-prop-value (plan:desig-prop-value designator :object) :type)))
@@ -117,7 +118,8 @@
     (is (null (plan:desig-prop-value nil :type)))
     (is (string= "(an action (type grasping))"
                  (princ-to-string (plan:an action (type grasping)))))
-    (is (eq ?pose (plan:designated-pose (plan:a location (pose ?pose)))))))
+    (let ((location (plan:a location (pose ?pose))))
+      (is (eq pose (plan:designated-pose location))))))
 
 (test malformed-designators
   (signals-with (plan:malformed-plan-form "after the article") (macroexpand-1 '(plan:a thing)))

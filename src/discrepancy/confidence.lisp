@@ -97,7 +97,7 @@ NIL if the samples do not suffice to predict."
   (let ((value (slot-value rule 'confidence)))
     (unless (and (realp value) (< 0 value 1))
       (error 'invalid-confidence :value value))
-    (setf (slot-value rule 'confidence) (float value 1d0))))
+    (setf (slot-value rule 'confidence) (decimal-double value))))
 
 (defmethod print-object ((rule confidence-rule) stream)
   (print-unreadable-object (rule stream :type t)

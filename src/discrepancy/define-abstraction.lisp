@@ -6,25 +6,31 @@
   (error 'abstraction-error :name name :clause clause
                             :reason (apply #'format nil control arguments)))
 
+(defun bounds-problem (name clause entry)
+  (abstraction-problem name clause "~a was found where (axis min max) was expected, with an axis ~
+                                    :x, :y, :z or :yaw"
+                       (ec:formula-text entry)))
+
 (defun parse-bounds (name clause entries)
   "Return the list of (axis min max) written as ENTRIES, lists of an axis and two numbers."
   (loop for entry in entries
         collect
-        (destructuring-bind (&optional axis min max &rest more) (if (consp entry) entry (list entry))
-          (unless (and (assoc axis *axes*) (realp min) (realp max) (null more))
-            (abstraction-problem name clause "~a was found where (axis min max) was expected, with ~
-                                              an axis :x, :y, :z or :yaw"
-                                 (ec:formula-text entry)))
+        (source:destructuring-or (axis min max) entry (bounds-problem name clause entry)
+          (unless (and (assoc axis *axes*) (realp min) (realp max))
+            (bounds-problem name clause entry))
           (unless (< min max)
             (abstraction-problem name clause "a region of no volume: ~(~s~) from ~a to ~a"
                                  axis min max))
-          (list axis (float min 1d0) (float max 1d0)))))
+          (list axis (decimal-double min) (decimal-double max)))))
+
+(defun region-problem (name clause)
+  (abstraction-problem name clause "(:region name (interval axis min max)) or ~
+                                    (:region name (box (axis min max)*)) was expected"))
 
 (defun parse-region (name clause)
-  (destructuring-bind (region-name &optional description &rest more) (rest clause)
-    (unless (and (symbolp region-name) region-name (consp description) (null more))
-      (abstraction-problem name clause "(:region name (interval axis min max)) or ~
-                                        (:region name (box (axis min max)*)) was expected"))
+  (source:destructuring-or (region-name description) (rest clause) (region-problem name clause)
+    (unless (and (symbolp region-name) region-name (consp description))
+      (region-problem name clause))
     (let ((kind (first description)))
       (make-region (ec:name-keyword region-name)
                    (cond ((and (symbolp kind) (string= kind "INTERVAL"))
@@ -63,7 +69,9 @@
                                                needs a range, (~:*~(~a~) min max)" axis)))))
 
 (defun parse-placement (name clause theory scene regions)
-  (destructuring-bind (pattern &key body coordinates) (rest clause)
+  (source:destructuring-or (pattern &key body coordinates) (rest clause)
+      (abstraction-problem name clause "(:placement (fluent ?region) :body name :coordinates ~
+                                        (coordinate*)) was expected")
     (let* ((fluent (and (consp pattern) (symbolp (first pattern)) (ec:name-keyword (first pattern))))
            (declaration (assoc fluent (ec:theory-fluents theory))))
       (unless (and declaration (= (length pattern) 2 (length declaration)))
@@ -83,7 +91,8 @@
                                                                      candidates)))))))
 
 (defun parse-attachment (name clause theory scene)
-  (destructuring-bind (atom &key item) (rest clause)
+  (source:destructuring-or (atom &key item) (rest clause)
+      (abstraction-problem name clause "(:attachment (fluent) :item name) was expected")
     (let ((atom (and (consp atom) (mapcar #'ec:name-keyword atom))))
       (unless (and atom (assoc (first atom) (ec:theory-fluents theory))
                    (= (length atom) (length (assoc (first atom) (ec:theory-fluents theory)))))

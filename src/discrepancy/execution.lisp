@@ -169,8 +169,9 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, UNKNOWN-BODY, UNKNOWN-PARAMETER, INVALID-ARGUM
                                           :name 'state :value (list body axis value)
                                           :expected "(body axis number)"))
                                  (projection:scene-body-pose (domain-scene domain) body)
-                                 (push (float value 1d0) values)
+                                 (push (decimal-double value) values)
                               collect (make-parameter (ec:name-keyword body) axis
-                                                      (float value 1d0) (float value 1d0))))))
+                                                      (decimal-double value)
+                                                      (decimal-double value))))))
     (execute-sample domain plan (make-sample 0 coordinates (coerce (nreverse values) 'vector))
                     :arguments arguments)))

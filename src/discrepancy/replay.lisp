@@ -78,7 +78,7 @@
                    collect (cons file (json-or-null (file-hash file))))
      "constraint" (ec:name-text (discrepancy-constraint discrepancy))
      "parameters" (loop for (name value) on (discrepancy-parameters discrepancy) by #'cddr
-                        collect (cons (ec:name-text name) (float value 1d0)))
+                        collect (cons (ec:name-text name) (decimal-double value)))
      "execution" (string-downcase (discrepancy-execution discrepancy))
      "compare" (string-downcase (discrepancy-compare discrepancy))
      "seed" (discrepancy-seed discrepancy)

@@ -11,7 +11,7 @@
 (defun number-text (number)
   "Return the shortest decimal text of the real NUMBER."
   (let ((*read-default-float-format* 'double-float))
-    (princ-to-string (if (integerp number) number (float number 1d0)))))
+    (princ-to-string (if (integerp number) number (decimal-double number)))))
 
 (defun parameters-text (parameters)
   "Return a text for the property list PARAMETERS of scene parameters, or NIL."
@@ -42,8 +42,8 @@
           for value across (sample-values sample)
           do (format stream "    ~a = ~,4f ~a~%" (parameter-name parameter) value
                      (axis-unit (parameter-axis parameter))))
-    (loop for (body pose) on poses by #'cddr
-          for region = (symbolic:region-of-pose domain pose)
+    (loop for body in (remove-duplicates (mapcar #'parameter-body (sample-parameters sample)))
+          for region = (symbolic:region-of-pose domain (getf poses body))
           do (format stream "    ~a is in ~:[no region~;~:*~a~]~%" (ec:name-text body)
                      (and region (ec:name-text region))))))
 

@@ -4,8 +4,9 @@
   ((value :initarg :value :reader invalid-confidence-value
           :documentation "The object that was given as a confidence."))
   (:report (lambda (condition stream)
-             (format stream "A confidence lies between 0 and 1, both excluded, which ~s does not."
-                     (invalid-confidence-value condition))))
+             (format stream "A confidence lies between 0 and 1, both excluded, which ~a does not."
+                     (let ((value (invalid-confidence-value condition)))
+                       (if (realp value) (number-text value) value)))))
   (:documentation "Signaled when a confidence rule is made with a confidence that is not a real
 number between 0 and 1."))
 
@@ -15,7 +16,7 @@ number between 0 and 1."))
    (known :initarg :known :reader unknown-confidence-rule-known
           :documentation "The list of the names of all rules, sorted."))
   (:report (lambda (condition stream)
-             (format stream "There is no confidence rule ~s, only ~{~s~^, ~}."
+             (format stream "There is no confidence rule ~(~a~); there is ~{~(~a~)~^, ~}."
                      (unknown-confidence-rule-name condition)
                      (unknown-confidence-rule-known condition))))
   (:documentation "Signaled when a confidence rule is sought by a name that no rule has."))

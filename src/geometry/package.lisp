@@ -6,5 +6,7 @@
    #:pose #:pose-p #:make-pose #:quaternion-pose #:identity-pose
    #:pose-x #:pose-y #:pose-z #:pose-qx #:pose-qy #:pose-qz #:pose-qw
    #:pose-yaw #:pose-components #:components-pose
+   ;; numbers
+   #:decimal-double
    ;; algebra
    #:compose #:inverse #:pose= #:planar-distance))

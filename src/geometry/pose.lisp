@@ -7,6 +7,11 @@
 
 (in-package #:discrepancy-finder.geometry)
 
+(defun decimal-double (number)
+  "Return the real NUMBER as a double float.  A single float stands for the shortest decimal that it
+prints as, so that 0.1 typed at a REPL that reads single floats means 0.1d0."
+  (float (if (typep number 'single-float) (rationalize number) number) 1d0))
+
 (defstruct (pose (:constructor %make-pose (x y z qx qy qz qw)) (:copier nil))
   "A position (m) and a unit quaternion."
   (x 0d0 :type double-float :read-only t)
@@ -28,9 +33,10 @@
 (defun make-pose (x y z &key (roll 0d0) (pitch 0d0) (yaw 0d0))
   "Return the pose at position X, Y, Z (m), turned by ROLL, PITCH and YAW (rad) about the fixed
 axes x, y and z, in this order, as URDF has it.  The arguments are reals."
-  (let* ((r (/ (float roll 1d0) 2)) (p (/ (float pitch 1d0) 2)) (w (/ (float yaw 1d0) 2))
+  (let* ((r (/ (decimal-double roll) 2)) (p (/ (decimal-double pitch) 2))
+         (w (/ (decimal-double yaw) 2))
          (cr (cos r)) (sr (sin r)) (cp (cos p)) (sp (sin p)) (cy (cos w)) (sy (sin w)))
-    (%make-pose (float x 1d0) (float y 1d0) (float z 1d0)
+    (%make-pose (decimal-double x) (decimal-double y) (decimal-double z)
                 (- (* sr cp cy) (* cr sp sy))
                 (+ (* cr sp cy) (* sr cp sy))
                 (- (* cr cp sy) (* sr sp cy))

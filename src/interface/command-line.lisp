@@ -93,11 +93,12 @@ top-level plans, a name; or a name."
                                                             (symbol-name (plan:plan-name plan)))
                                                      :test-not #'string-equal)
                                   (remove-if-not #'plan:plan-top-level-p plans))))
-             (if (= (length candidates) 1)
-                 (plan:plan-name (first candidates))
-                 (usage-problem "~a defines ~:[no such plan~;~:*~:[no top-level plan~;several ~
-                                 top-level plans, so name one~]~]."
-                                file (if name nil (or candidates (list nil))) candidates)))))))
+             (cond ((null candidates)
+                    (usage-problem "~a defines no ~:[top-level plan~;plan named ~:*~a~]." file name))
+                   ((rest candidates)
+                    (usage-problem "~a defines several top-level plans, so name one of~
+                                    ~{ ~(~a~)~^,~}." file (mapcar #'plan:plan-name candidates)))
+                   (t (plan:plan-name (first candidates)))))))))
 
 (defun domain-argument (options)
   "Return the domain that --domain names: a file, a folder with a domain.lisp, or a name."

@@ -22,9 +22,10 @@
    (expected :initarg :expected :reader malformed-plan-form-expected
              :documentation "What was expected, as a string."))
   (:report (lambda (condition stream)
-             (format stream "In ~s, ~a was expected."
-                     (malformed-plan-form-form condition)
-                     (malformed-plan-form-expected condition))))
+             (let ((*print-pretty* nil) (*print-length* 8) (*print-level* 4))
+               (format stream "In ~s, ~a was expected."
+                       (malformed-plan-form-form condition)
+                       (malformed-plan-form-expected condition)))))
   (:documentation "Signaled when a form of the plan language is expanded that is not well-formed."))
 
 (define-condition no-executive (plan-error)

@@ -53,7 +53,7 @@ UNKNOWN-PARAMETER."
               :file (scene-file scene) :parts (scene-parts scene)
               :parameters (loop for (name value . more) in (scene-parameters scene)
                                 for new = (getf values name)
-                                collect (list* name (if new (float new 1d0) value) more))))
+                                collect (list* name (if new (decimal-double new) value) more))))
 
 (defun scene-part (scene name)
   "Return the part NAME, a symbol, of SCENE.  Signals UNKNOWN-BODY."
@@ -140,7 +140,7 @@ UNKNOWN-PARAMETER."
 (defun parse-parameter (entry file)
   (unless (and (consp entry) (symbolp (first entry)) (realp (second entry)))
     (scene-problem file entry "(name number [documentation]) was expected in :parameters"))
-  (list* (keyword-for (first entry)) (float (second entry) 1d0) (cddr entry)))
+  (list* (keyword-for (first entry)) (decimal-double (second entry)) (cddr entry)))
 
 (defun parse-scene (form file)
   (destructuring-bind (name &rest clauses) (rest form)

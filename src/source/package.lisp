@@ -7,6 +7,8 @@ form knows its file and line.")
    #:source-position #:source-position-file #:source-position-line #:form-position
    ;; reading
    #:read-source #:load-source
+   ;; taking data apart
+   #:destructuring-or
    ;; conditions
    #:source-error #:source-error-file #:source-error-line #:source-error-reason
    #:condition-sentence))

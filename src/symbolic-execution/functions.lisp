@@ -27,7 +27,9 @@ calls the closure that BODY, a function of the inner scope, returns."
          (lexicals (set-difference names specials))
          (lexicals (remove-if-not (lambda (name) (member name lexicals)) names))
          (inner (extend-scope scope (or lexicals (list (gensym)))
-                              :variable names :declare (declaration-specifiers declarations)))
+                              :variable names
+                              :declare `((special ,@specials)
+                                         ,@(declaration-specifiers declarations))))
          (run (funcall body inner))
          (size (1+ (max 1 (length lexicals))))
          (places (loop for name in names

@@ -73,17 +73,18 @@
            (length (discrepancy::verdict-coefficients verdict))
            (length (discrepancy::verdict-sigma verdict))))))
 
-(test paper-rule-bounds-are-half-open
+(test paper-rule-bounds-are-closed
   (flet ((status (min max)
            (discrepancy::verdict-status
             (paper-verdict '(((1) (1))) '((0 2)) (list (list min max))))))
     (is (eq :confident (status 0 2.1d0)))
-    (is (eq :continue (status 0 2)))
+    (is (eq :confident (status 0 2)))
+    (is (eq :continue (status 0 1.999d0)))
     (is (eq :continue (status 0.1d0 3)))))
 
 (test paper-rule-names-the-final-parameter
   (is (string= (format nil "final parameter 2 is predicted in [1.0000, 4.0000], which is not ~
-                            inside [-1.0000, 3.0000[")
+                            inside [-1.0000, 3.0000]")
                (discrepancy::verdict-reason
                 (paper-verdict '(((1) (1 2)) ((2) (2 4))) '((0.5d0 2)) '((-1 3) (-1 3)))))))
 
@@ -152,4 +153,4 @@
                      (discrepancy::unknown-confidence-rule (condition) condition))))
     (is (eq :papre (discrepancy::unknown-confidence-rule-name condition)))
     (is (member :paper (discrepancy::unknown-confidence-rule-known condition)))
-    (is (eql 0 (search "There is no confidence rule :PAPRE, only " (princ-to-string condition))))))
+    (is (eql 0 (search "There is no confidence rule papre; there is " (princ-to-string condition))))))

@@ -1,0 +1,199 @@
+(in-package #:discrepancy-finder.tests)
+
+(def-suite projection :in all)
+(in-suite projection)
+
+(defun two-regions-scene (&rest parameters)
+  (projection:scene-with-parameters (discrepancy:domain-scene (two-regions)) parameters))
+
+(defun perform-in (projection designator)
+  (plan:with-executive (projection) (plan:perform designator)))
+
+(defun going-to (x &optional (y 0) (yaw 0))
+  (let ((?pose (geometry:make-pose x y 0 :yaw yaw)))
+    (plan:a motion (type going) (pose ?pose))))
+
+(defun placing-at (x y z)
+  (let ((?pose (geometry:make-pose x y z)))
+    (plan:an action (type placing) (target (plan:a location (pose ?pose))))))
+
+(defun picking-up-the-box ()
+  (plan:an action (type picking-up) (object (plan:an object (type box)))))
+
+(defun box-pose (projection)
+  (projection:observed-pose projection :box))
+
+(test the-scene-is-as-described
+  (let ((scene (two-regions-scene)))
+    (is (equal '(:box) (projection:scene-item-names scene)))
+    (is (eq :robot (projection:scene-robot-name scene)))
+    (is (= 0.8d0 (projection:scene-parameter scene :reach)))
+    (is (= 0.5d0 (projection:scene-parameter (two-regions-scene :reach 0.5) :reach)))
+    (signals-with (projection:unknown-parameter "two-regions" "reech" "reach")
+      (two-regions-scene :reech 1))))
+
+(test a-settled-world-keeps-its-items-where-they-are
+  (projection:with-projection (projection (two-regions-scene))
+    (is-true (projection:settle projection))
+    (is (nearly 1.5d0 (geometry:pose-x (box-pose projection)) 1d-4))
+    (is (nearly 0.46d0 (geometry:pose-z (box-pose projection)) 1d-3))
+    (is (< (projection:interpenetration projection) 1d-3))))
+
+(test going
+  "The base ends exactly at its goal, after the time of a trapezoidal profile."
+  (projection:with-projection (projection (two-regions-scene))
+    (perform-in projection (going-to 1.5))
+    (is (geometry:pose= (geometry:make-pose 1.5 0 0)
+                        (projection:observed-pose projection :robot)))
+    (is (nearly 2 (projection:simulated-seconds projection) 1/100)
+        "1 m with 1 m/s^2 up to 1 m/s and down again")))
+
+(test driving-into-a-fixture-stops-the-base
+  (projection:with-projection (projection (two-regions-scene))
+    (signals plan:navigation-goal-not-reached
+      (perform-in projection (going-to 0.5 0.4)))
+    (let ((y (geometry:pose-y (projection:observed-pose projection :robot))))
+      (is (< 0.04 y 0.12) "the base is 0.2 m deep and the bench begins at 0.25 m: ~a" y))))
+
+(test picking-up-carrying-and-placing
+  (projection:with-projection (projection (two-regions-scene))
+    (projection:settle projection)
+    (perform-in projection (going-to 1.5))
+    (perform-in projection (picking-up-the-box))
+    (is (eq :box (projection:held-item projection)))
+    (is (> (geometry:pose-z (box-pose projection)) 0.55) "it is lifted")
+    (let ((before (geometry:planar-distance (box-pose projection)
+                                            (projection:observed-pose projection :robot))))
+      (perform-in projection (going-to 0.5))
+      (is (nearly before (geometry:planar-distance (box-pose projection)
+                                                   (projection:observed-pose projection :robot))
+                  5d-3)
+          "a carried box moves with the robot"))
+    (perform-in projection (placing-at 0.5 0.4 0.46))
+    (is (null (projection:held-item projection)))
+    (is (nearly 0.5 (geometry:pose-x (box-pose projection)) 5d-3))
+    (is (nearly 0.4 (geometry:pose-y (box-pose projection)) 5d-3))
+    (is (nearly 0.46 (geometry:pose-z (box-pose projection)) 1d-3) "it rests on the bench")))
+
+(test a-box-placed-in-the-air-falls
+  "Nothing holds a released box but what is below it."
+  (projection:with-projection (projection (two-regions-scene))
+    (projection:settle projection)
+    (perform-in projection (going-to 1.5))
+    (perform-in projection (picking-up-the-box))
+    (perform-in projection (going-to 0.5))
+    (perform-in projection (placing-at 0.5 0.4 0.65))
+    (is (< (geometry:pose-z (box-pose projection)) 0.47))))
+
+(test reach-is-a-distance-from-the-shoulder
+  "Just inside of the reach the box is grasped, just outside it is not."
+  (flet ((distance-of-the-box (x)
+           (sqrt (+ (expt (- x 1.5) 2) 0.16)))
+         (picked-up-p (x reach)
+           (projection:with-projection (projection (two-regions-scene :reach reach)
+                                                   :poses (list :robot (geometry:make-pose 1.5 0 0)
+                                                                :box (geometry:make-pose x 0.4 0.46)))
+             (projection:settle projection)
+             (handler-case (progn (perform-in projection (picking-up-the-box)) t)
+               (plan:manipulation-pose-unreachable () nil)))))
+    (dolist (x '(1.1 1.4 1.6 1.9))
+      (is-true (picked-up-p x (+ (distance-of-the-box x) 1d-3)))
+      (is-false (picked-up-p x (- (distance-of-the-box x) 1d-3))))))
+
+(test failures-of-manipulation
+  (projection:with-projection (projection (two-regions-scene))
+    (signals plan:gripper-closed-completely (perform-in projection (placing-at 0.5 0.4 0.46)))
+    (signals plan:perception-object-not-found
+      (perform-in projection (plan:an action (type picking-up)
+                                      (object (plan:an object (type teapot))))))
+    (signals plan:designator-not-understood (perform-in projection (plan:a motion (type flying))))
+    (signals plan:designator-not-understood (perform-in projection (plan:a motion (type going))))
+    (perform-in projection (going-to 1.5))
+    (perform-in projection (picking-up-the-box))
+    (signals plan:gripper-goal-not-reached (perform-in projection (picking-up-the-box)))
+    (signals plan:manipulation-pose-unreachable (perform-in projection (placing-at 0.5 0.4 0.46)))))
+
+(test the-same-actions-give-the-same-bits
+  (flet ((hash ()
+           (projection:with-projection (projection (two-regions-scene))
+             (projection:settle projection)
+             (perform-in projection (going-to 1.4 0 0.05))
+             (perform-in projection (picking-up-the-box))
+             (projection:state-hash projection))))
+    (let ((hash (hash)))
+      (is (= hash (hash)))
+      (is (= hash (sb-thread:join-thread (sb-thread:make-thread #'hash)))))))
+
+;;; URDF
+
+(defun urdf-with (text)
+  (format nil "<robot name=\"r\">~a</robot>" text))
+
+(defmacro urdf-problem-of (text &rest parts)
+  `(with-file (file ,text "urdf")
+     (signals-with (projection:urdf-error file ,@parts) (projection:read-urdf file))))
+
+(test urdf-models
+  (with-file (file (urdf-with "<link name=\"a\"><collision><origin xyz=\"0 0 1\" rpy=\"0 0 0\"/>
+      <geometry><box size=\"1 2 3\"/></geometry></collision>
+      <collision><geometry><sphere radius=\".5\"/></geometry></collision></link>
+    <link name=\"b\"><inertial><mass value=\"2\"/></inertial></link>
+    <joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/>
+      <axis xyz=\"0 0 2\"/><limit lower=\"-1\" upper=\"1.5\"/></joint>") "urdf")
+    (let* ((model (projection:read-urdf file))
+           (joint (first (projection::urdf-model-joints model))))
+      (is (string= "a" (projection::urdf-model-root model)))
+      (is (eq :compound (first (projection::urdf-link-shape
+                                (first (projection::urdf-model-links model))))))
+      (is (equal '(0d0 0d0 1d0) (projection::urdf-joint-axis joint)) "axes are normalized")
+      (is (equal '(-1d0 1.5d0) (list (projection::urdf-joint-lower joint)
+                                     (projection::urdf-joint-upper joint))))
+      (is (= 2d0 (projection::urdf-link-mass (second (projection::urdf-model-links model))))))))
+
+(test what-is-wrong-in-a-urdf-file-is-named
+  (signals-with (projection:urdf-error "no/such.urdf" "no such file")
+    (projection:read-urdf "no/such.urdf"))
+  (urdf-problem-of "<robot name=\"r\"><link" "not well-formed XML")
+  (urdf-problem-of "<sdf/>" "not <robot>")
+  (urdf-problem-of (urdf-with "") "one tree")
+  (urdf-problem-of (urdf-with "<link/>") "a link" "no attribute name")
+  (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><mesh filename=\"x\"/>
+                               </geometry></collision></link>") "link a" "<mesh>" "box")
+  (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><box size=\"1 2\"/>
+                               </geometry></collision></link>") "link a" "3 numbers")
+  (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><sphere radius=\"#.1\"/>
+                               </geometry></collision></link>") "link a" "no number")
+  (urdf-problem-of (urdf-with "<link name=\"a\"/><link name=\"b\"/>
+    <joint name=\"j\" type=\"floating\"><parent link=\"a\"/><child link=\"b\"/></joint>")
+                   "joint j" "floating")
+  (urdf-problem-of (urdf-with "<link name=\"a\"/><link name=\"b\"/>
+    <joint name=\"j\" type=\"prismatic\"><parent link=\"a\"/><child link=\"b\"/></joint>")
+                   "joint j" "limit")
+  (urdf-problem-of (urdf-with "<link name=\"a\"/>
+    <joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"c\"/></joint>")
+                   "joint j" "no link c"))
+
+;;; Scene files
+
+(defmacro scene-problem-of (text &rest parts)
+  `(with-file (file ,text)
+     (signals-with (error file ,@parts) (projection:load-scene file))))
+
+(test what-is-wrong-in-a-scene-file-is-named
+  (with-file (file "(define-scene s (:item box \"nothing.urdf\" (:at 0 0 0)))")
+    (signals-with (projection:urdf-error "nothing.urdf" "no such file")
+      (projection:load-scene file)))
+  (let ((box (root-file "models/two-regions/box.urdf")))
+    (scene-problem-of "(define-scene s (:item box #.(print 1)))" ":1: " "#.")
+    (scene-problem-of "" "define-scene")
+    (scene-problem-of "(print 1)" "define-scene")
+    (scene-problem-of (format nil "(define-scene s~% (:thing))") ":2: " ":thing")
+    (scene-problem-of "(define-scene s (:item box))" "name \"file.urdf\"")
+    (scene-problem-of (format nil "(define-scene s (:item box ~s))" box) ":item box" ":at")
+    (scene-problem-of (format nil "(define-scene s (:item box ~s (:at 0 0)))" box) "(:at x y z")
+    (scene-problem-of (format nil "(define-scene s (:item box ~s (:at 0 0 1)) (:item box ~:*~s (:at ~
+                                   1 0 1)))" box) "same name")
+    (scene-problem-of "(define-scene s (:parameters (reach far)))" "name number")
+    (scene-problem-of (format nil "(define-scene s (:robot r ~s (:at 0 0 0) (:lift \"a\") ~
+                                   (:shoulder \"b\") (:extension \"c\") (:gripper \"d\")))" box)
+                      ":lift" "no such joint")))

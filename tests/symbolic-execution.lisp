@@ -1,0 +1,286 @@
+(in-package #:discrepancy-finder.tests)
+
+(def-suite symbolic-execution :in all)
+(in-suite symbolic-execution)
+
+;;; The evaluator on concrete programs: the same values and side effects as SBCL's compiler.
+
+(defun evaluate (form)
+  "Return the list of the values of FORM in the symbolic evaluator."
+  (multiple-value-list
+   (funcall (symbolic::analyze form (symbolic::make-scope)) (vector nil))))
+
+(defun compiled (form)
+  "Return the list of the values of FORM, compiled by SBCL."
+  (handler-bind ((warning #'muffle-warning))
+    (let ((*error-output* (make-broadcast-stream)))
+      (multiple-value-list (funcall (compile nil `(lambda () ,form)))))))
+
+(defvar *special* :global
+  "A special variable for programs of the tests.")
+
+(defparameter *programs*
+  '((if nil 1 2) (if (= 1 1) 'a) (let ((x 1) (y 2)) (list x y)) (let ((x 1)) (let ((x 2) (y x)) (list x y)))
+    (let* ((x 1) (y (1+ x)) (x (+ x y))) (list x y)) (let (x) x) (progn) (progn 1 2 3)
+    (let ((x 1)) (setq x 2 x (1+ x)) x) (let (x y) (setq x 1 y x) (list x y)) (quote (a . b))
+    (function car) ((lambda (x &optional (y x) &rest more) (list x y more)) 1)
+    ((lambda (x &optional (y x) &rest more) (list x y more)) 1 2 3 4)
+    ((lambda (&key (a 1) ((:b c) a c-p) &allow-other-keys) (list a c c-p)) :a 5 :z 3)
+    ((lambda (&key (a 1) ((:b c) a c-p)) (list a c c-p)) :b nil)
+    ((lambda (x &aux (y (* x 2))) (list x y)) 4)
+    (funcall (lambda (x) (* x x)) 5) (funcall 'list 1 2) (funcall #'+ 1 2) (apply #'list 1 '(2 3))
+    (mapcar (lambda (x) (1+ x)) '(1 2 3)) (let ((f (let ((n 0)) (lambda () (incf n))))) (funcall f) (funcall f))
+    (let ((fs (mapcar (lambda (x) (lambda () (* x x))) '(1 2 3)))) (mapcar #'funcall fs))
+    (let ((sum 0)) (dolist (x '(1 2 3) sum) (incf sum x))) (dolist (x '(1 2 3)) (when (= x 2) (return x)))
+    (let ((r '())) (dotimes (i 4 (reverse r)) (push i r))) (block a (block b (return-from a 1)) 2)
+    (block nil (let ((x 1)) (tagbody again (incf x) (when (< x 5) (go again))) x))
+    (let ((x 0)) (tagbody (go b) a (setq x :a) (go end) b (go a) end) x)
+    (block out (mapcar (lambda (x) (when (= x 2) (return-from out x))) '(1 2 3)))
+    (flet ((f (x) (1+ x))) (list (f 1) (funcall #'f 2))) (flet ((twice (x) (list :mine x))) (twice '(1 2)))
+    (labels ((f (n) (if (zerop n) 1 (* n (f (1- n)))))) (f 10))
+    (labels ((e (n) (or (zerop n) (o (1- n)))) (o (n) (and (plusp n) (e (1- n))))) (list (e 10) (o 10)))
+    (flet ((f (x) (return-from f (* 2 x)))) (f 3)) (macrolet ((twice (x) `(list ,x ,x))) (twice 5))
+    (symbol-macrolet ((y (car x))) (let ((x (list 1 2))) (setq y 3) (incf y) x))
+    (let ((x 1)) (macrolet ((m () 'x)) (let ((x 2)) (list x (m)))))
+    (multiple-value-list (values 1 2 3)) (multiple-value-bind (a b) (floor 7 2) (list a b))
+    (multiple-value-call #'list 1 (values 2 3)) (multiple-value-prog1 (values 1 2) 3)
+    (catch 'x (throw 'x 1) 2) (let ((log '())) (catch 'x (unwind-protect (throw 'x 1) (push 2 log))) log)
+    (let ((*special* 1)) (list *special* (symbol-value '*special*)))
+    (progn (let ((*special* 2)) (setq *special* 3)) *special*) (progv '(*special*) '(9) *special*)
+    (let ((z 1)) (declare (special z)) (let ((z 2)) (declare (ignorable z)) (symbol-value 'z)))
+    (let ((*special* 5) (y *special*)) y) (let* ((*special* 5) (y *special*)) y)
+    (cond ((assoc 2 '((1 . a) (2 . b))) (list :found)) (t 2)) (cond (5)) (case 2 ((1 2) :low) (t :high))
+    (and 1 2) (or nil 3) (when t 1 2) (unless t 1) (let ((x (list 1 2))) (setf (car x) 9) x)
+    (let ((h (make-hash-table))) (setf (gethash 1 h) 2) (incf (gethash 1 h)) (gethash 1 h))
+    (loop for i from 1 to 3 collect (* i i)) (loop with x = 0 while (< x 3) do (incf x) finally (return x))
+    (let ((x 5)) (the fixnum x)) (locally (declare (optimize speed)) 3) (eval-when (:execute) 1)
+    (destructuring-bind (a (b &rest c) &key d) '(1 (2 3 4) :d 5) (list a b c d))
+    (let ((x 1) (y 2)) (psetq x y y x) (list x y)) (let ((x (list 3 1 2))) (sort x (lambda (a b) (< a b))))
+    (prog (x) (setq x 1) (return x)) (let ((n 0)) (do ((i 0 (1+ i))) ((= i 4) n) (incf n i)))
+    (handler-case (error "x") (error () :caught)) (ignore-errors (error "x"))
+    (plan:with-failure-handling ((plan:plan-failure () (return 7))) (plan:fail))
+    (plan:with-retry-counters ((c 2)) (let ((n 0)) (plan:with-failure-handling
+      ((plan:plan-failure () (plan:do-retry c (plan:retry)) (return n))) (incf n) (plan:fail)))))
+  "Programs whose values must be the same in the evaluator and compiled.")
+
+(test concrete-programs-as-compiled
+  (dolist (program *programs*)
+    (let ((expected (compiled program))
+          (found (handler-case (evaluate program)
+                   (symbolic:unsupported-form (condition) (princ-to-string condition)))))
+      (is (or (equal expected found)
+              (and (functionp (first expected)) (eq (first expected) (first found))))
+          "~s is ~s, and the evaluator says ~s" program expected found)))
+  (is (eq :global *special*)))
+
+(test errors-of-evaluation
+  (signals unbound-variable (evaluate 'no-such-variable-anywhere))
+  (signals undefined-function (evaluate '(no-such-function-anywhere)))
+  (signals program-error (evaluate '((lambda (x) x))))
+  (signals symbolic:unsupported-form (evaluate '(return-from nowhere)))
+  (signals symbolic:unsupported-form (evaluate '(go nowhere))))
+
+;;; Exploration
+
+(defclass lamp-domain (symbolic:action-theory) ())
+
+(defparameter *lamp-theory* "
+(define-theory lamps
+  (:sorts (lamp a b))
+  (:fluents (lit lamp) (broken lamp))
+  (:events (toggle lamp) (smash lamp))
+  (:axioms
+   (toggle-on (implies (and (not (holds-at (lit ?lamp) ?time)) (not (holds-at (broken ?lamp) ?time)))
+                       (initiates (toggle ?lamp) (lit ?lamp) ?time)))
+   (toggle-off (implies (holds-at (lit ?lamp) ?time) (terminates (toggle ?lamp) (lit ?lamp) ?time)))
+   (smash-breaks (initiates (smash ?lamp) (broken ?lamp) ?time))
+   (smash-darkens (terminates (smash ?lamp) (lit ?lamp) ?time))
+   (broken-is-dark (not (and (holds-at (lit ?lamp) ?time) (holds-at (broken ?lamp) ?time))))))
+(define-state-constraint lamp-a-lit (?time)
+  (and (happens (toggle a) ?time) (holds-at (lit a) (+ ?time 1))))
+(define-state-constraint anything (?time)
+  (exists (?lamp) (or (happens (toggle ?lamp) ?time) (happens (smash ?lamp) ?time))))
+")
+
+(defun make-lamp-domain ()
+  (with-file (file *lamp-theory*)
+    (symbolic:register-action-theory
+     (make-instance 'lamp-domain :name :lamps :theory (ec:load-theory file)))
+    (symbolic:define-action (motion toggling) (lamp)
+      (:domain lamps)
+      (:event (toggle lamp))
+      (:requires (not (broken lamp)))
+      (:failure plan:gripper-goal-not-reached :event (smash lamp)))
+    (symbolic:define-action (motion smashing) (lamp)
+      (:domain lamps)
+      (:event (smash lamp)))
+    (symbolic:find-action-theory :lamps)))
+
+(defun explore-text (text &rest options)
+  "Define the plan in TEXT, which is named lamp-plan, and explore it."
+  (make-lamp-domain)
+  (with-file (file text)
+    (plan:load-plan file)
+    (apply #'symbolic:explore-plan 'discrepancy-finder-user::lamp-plan :domain :lamps options)))
+
+(defun step-outcomes (exploration)
+  (loop for trace in (symbolic:exploration-traces exploration)
+        collect (mapcar #'symbolic:step-outcome (symbolic:trace-steps trace))))
+
+(defun initial-fluents (exploration)
+  (loop for trace in (symbolic:exploration-traces exploration)
+        collect (ec:state-fluents (symbolic:trace-initial-state trace))))
+
+(test outcomes-that-the-theory-allows-are-decisions
+  "Lamp a may be broken or not; only the path on which it is not lights it."
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (with-failure-handling ((gripper-goal-not-reached () (return :broken)))
+    (perform (a motion (type toggling) (lamp a)))))" :constraint 'lamp-a-lit)))
+    (is-true (symbolic:exploration-complete-p exploration))
+    (is (= 2 (symbolic:exploration-paths exploration)))
+    (is (equal '((:success)) (step-outcomes exploration)))
+    (is (equal '(()) (initial-fluents exploration)) "the least initial state: everything false")
+    (let ((step (first (symbolic:trace-steps
+                        (first (symbolic:exploration-traces exploration))))))
+      (is (equal '(:toggle :a) (symbolic:step-event step)))
+      (is (= 4 (source:source-position-line (symbolic:step-position step)))))))
+
+(test a-failure-with-an-event-has-effects
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (with-failure-handling ((gripper-goal-not-reached () (return)))
+    (perform (a motion (type toggling) (lamp a)))))" :constraint 'anything)))
+    (is (equal '((:success) (plan:gripper-goal-not-reached)) (step-outcomes exploration)))
+    (is (equal '(() ((:broken :a))) (initial-fluents exploration)))
+    (is (equal '(((:lit :a)) ((:broken :a)))
+               (loop for trace in (symbolic:exploration-traces exploration)
+                     collect (ec:state-fluents (symbolic:trace-final-state trace)))))))
+
+(test what-happened-before-constrains-what-can-happen
+  "After smashing a toggling a can only fail, and no path is a dead end."
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (perform (a motion (type smashing) (lamp a)))
+  (with-failure-handling ((gripper-goal-not-reached () (return)))
+    (perform (a motion (type toggling) (lamp a)))))" :constraint 'anything)))
+    (is (equal '((:success plan:gripper-goal-not-reached)) (step-outcomes exploration)))
+    (is (= 1 (symbolic:exploration-paths exploration)))
+    (is (= 0 (symbolic:exploration-dead-ends exploration)))))
+
+(test symbolic-arguments-branch
+  "Each boolean argument is decided where it is tested, and the trace has its value."
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan (?first ?second)
+  (let ((opposite (not ?second)))
+    (if (and ?first opposite)
+        (perform (a motion (type toggling) (lamp a)))
+        (when ?first (perform (a motion (type smashing) (lamp b)))))))"
+                                   :constraint 'anything
+                                   :arguments '((?first boolean) (?second boolean)))))
+    (is (equal '((t t) (t nil))
+               (sort (remove-duplicates
+                      (mapcar #'symbolic:trace-arguments (symbolic:exploration-traces exploration))
+                      :test #'equal)
+                     (lambda (one other) (and (second one) (not (second other)))))))
+    (is (= 4 (symbolic:exploration-paths exploration))
+        "toggling, its failure, smashing, nothing")))
+
+(test compiled-code-never-sees-a-symbolic-value
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan (?flag)
+  (let ((seen (list ?flag)))
+    (check-type (first seen) boolean)
+    (perform (a motion (type toggling) (lamp a)))))"
+                                   :constraint 'lamp-a-lit :arguments '((?flag boolean)))))
+    (is (equal '((t) (nil))
+               (mapcar #'symbolic:trace-arguments (symbolic:exploration-traces exploration))))))
+
+(defvar *counter* 0
+  "A global that plans of the tests write to.")
+
+(test writes-to-globals-are-undone-between-paths
+  (setf *counter* 0)
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan (?flag)
+  (incf discrepancy-finder.tests::*counter*)
+  (if ?flag
+      (incf discrepancy-finder.tests::*counter* 10)
+      (incf discrepancy-finder.tests::*counter* 20))
+  (when (< discrepancy-finder.tests::*counter* 22)
+    (perform (a motion (type smashing) (lamp a)))))"
+                                   :constraint 'anything :arguments '((?flag boolean)))))
+    (is (= 2 (length (symbolic:exploration-traces exploration))))
+    (is (= 0 *counter*))))
+
+(defvar *runs* 0
+  "Counts calls of a compiled function, which are not undone.")
+
+(defun count-a-run ()
+  (incf *runs*))
+
+(test a-plan-that-decides-differently-is-reported
+  (setf *runs* 0)
+  (signals-with (symbolic:nondeterministic-plan "lamp-plan" "not deterministic")
+    (explore-text "
+(def-top-level-cram-function lamp-plan (?flag)
+  (if (= 1 (discrepancy-finder.tests::count-a-run))
+      (if ?flag (perform (a motion (type toggling) (lamp a))) 1)
+      (if (not ?flag) (perform (a motion (type smashing) (lamp a))) 2)))"
+                  :constraint 'anything :arguments '((?flag boolean)))))
+
+(test the-last-instance-of-the-constraint-cuts-the-trace
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (with-failure-handling ((gripper-goal-not-reached () (return)))
+    (perform (a motion (type toggling) (lamp a)))
+    (perform (a motion (type toggling) (lamp a)))
+    (perform (a motion (type smashing) (lamp b)))))" :constraint 'lamp-a-lit)))
+    ;; Lit at the first toggle if it was dark, at the second if it was lit.
+    (is (member '(:success :success) (step-outcomes exploration) :test #'equal))
+    (is (notany (lambda (outcomes) (> (length outcomes) 2)) (step-outcomes exploration)))))
+
+(test bounds-make-an-exploration-incomplete
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (dotimes (i 6)
+    (with-failure-handling ((gripper-goal-not-reached () (return)))
+      (perform (a motion (type toggling) (lamp a)))
+      (perform (a motion (type toggling) (lamp b))))))" :constraint 'anything :max-paths 2)))
+    (is (not (symbolic:exploration-complete-p exploration)))
+    (is (search "first 2" (first (symbolic:exploration-gaps exploration)))))
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (loop (perform (a motion (type smashing) (lamp a)))))" :constraint 'anything :max-steps 5)))
+    (is (not (symbolic:exploration-complete-p exploration)))
+    (is (equal '("paths of more than 5 steps") (symbolic:exploration-gaps exploration)))))
+
+(test abandoning-a-path-runs-no-cleanup-of-the-plan
+  (setf *runs* 0)
+  (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (unwind-protect (loop (perform (a motion (type smashing) (lamp a))))
+    (discrepancy-finder.tests::count-a-run)))" :constraint 'anything :max-steps 3)
+  (is (= 0 *runs*)))
+
+(test designators-without-a-meaning-are-named
+  (signals-with (symbolic:action-problem "(a motion (type singing))" "lamps" "no action binding")
+    (explore-text "(def-top-level-cram-function lamp-plan ()
+  (perform (a motion (type singing))))" :constraint 'anything))
+  (signals-with (symbolic:unsupported-form "LAMP-PLAN" "type for each")
+    (explore-text "(def-top-level-cram-function lamp-plan (x) x)" :constraint 'anything))
+  (signals-with (symbolic:unsupported-form "only parameters of type boolean")
+    (explore-text "(def-top-level-cram-function lamp-plan (x) x)" :constraint 'anything
+                  :arguments '((x integer)))))
+
+(test example-1-has-one-trace
+  (let* ((exploration (df:explore-plan 'discrepancy-finder-user::move-the-box :domain :two-regions))
+         (trace (first (symbolic:exploration-traces exploration))))
+    (is-true (symbolic:exploration-complete-p exploration))
+    (is (= 1 (length (symbolic:exploration-traces exploration))))
+    (is (equal '((:robot-in :r1) (:box-in :r2))
+               (ec:state-fluents (symbolic:trace-initial-state trace))))
+    (is (equal '((:move :r2) (:pick-up) (:move :r1) (:put-down :r1))
+               (mapcar #'symbolic:step-event (symbolic:trace-steps trace))))
+    (is (equal '((:robot-in :r1) (:box-in :r1))
+               (ec:state-fluents (symbolic:trace-final-state trace))))))
