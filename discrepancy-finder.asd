@@ -129,7 +129,8 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "conditions") (:file "actions") (:file "path")
                (:file "scope") (:file "evaluator") (:file "functions")
-               (:file "special-operators") (:file "perform") (:file "trace")
+               (:file "special-operators") (:file "conditions-in-plans") (:file "perform")
+               (:file "trace")
                (:file "exploration")))
 
 (asdf:defsystem "discrepancy-finder/projection"

@@ -40,14 +40,12 @@
 
 (defun inertia-of (inertia shape mass owner)
   "Return the list of three moments for a dynamic body: INERTIA, or else those of SHAPE and MASS."
-  (cond ((null inertia)
-         (shape-inertia shape mass))
-        ((eql (ignore-errors (list-length inertia)) 3)
-         (loop for moment in inertia
-               collect (number-of (format nil "a moment of inertia of ~a" owner)
-                                  moment 'add-body :positive)))
-        (t
-         (fail 'add-body "the inertia ~s of ~a is no list of three moments" inertia owner))))
+  (let ((moments (or inertia (shape-inertia shape mass))))
+    (unless (eql (ignore-errors (list-length moments)) 3)
+      (fail 'add-body "the inertia ~s of ~a is no list of three moments" moments owner))
+    (loop for moment in moments
+          collect (number-of (format nil "a moment of inertia of ~a" owner)
+                             moment 'add-body :positive))))
 
 (defun new-body-id (world name shape pose kind mass inertia friction rolling-friction restitution)
   "Return the id of a new foreign body.  Only POSE and SHAPE are still to be checked."
@@ -144,7 +142,8 @@ BULLET-ERROR if POSE is no finite position with a unit quaternion."
   body)
 
 (defun wake (body)
-  "Wake BODY, if it is dynamic and sleeps; return BODY.  Signals BULLET-ERROR if the world is closed."
+  "Wake BODY, if it is dynamic and sleeps; return BODY.  Signals BULLET-ERROR if the world is
+closed."
   (invoke ('wake pointer (body-world body)) (%body-wake pointer (body-id body)))
   body)
 

@@ -1,10 +1,10 @@
 /* C API of the Bullet shim: rigid-body worlds for a caller that has no C++.
  *
- * A world is an opaque handle.  Shapes, bodies and attachments are ids inside of one world: integers
- * from 0, in the order of their making.  A function that makes something returns its id, every
- * other one DFB_OK or what its comment says; a negative result is one of the statuses below, and
- * then nothing was changed and no output was written.  Handles are checked at each entry, ids for
- * bounds and liveness, numbers for being finite (at most 1e9 in magnitude).
+ * A world is an opaque handle.  Shapes, bodies and attachments are ids inside of one world:
+ * integers from 0, in the order of their making.  A function that makes something returns its id,
+ * every other one DFB_OK or what its comment says; a negative result is one of the statuses below,
+ * and then nothing was changed and no output was written.  Handles are checked at each entry, ids
+ * for bounds and liveness, numbers for being finite (at most 1e9 in magnitude).
  *
  * A pose is x, y, z (m) and a unit quaternion qx, qy, qz, qw.  The state of a body is 13 doubles:
  * its pose, its linear velocity (m/s), its angular velocity (rad/s).  SI units everywhere.

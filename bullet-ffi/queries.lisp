@@ -34,8 +34,9 @@ and 0.01 rad/s after each of the last 10 steps.  Signals BULLET-ERROR if WORLD i
   (= 1 (invoke ('at-rest-p pointer world) (%at-rest pointer))))
 
 (defun penetration (a b)
-  "Return how deep (m) the bodies A and B penetrate each other, 0 when they are apart, whether or not
-they ignore their collision.  Signals BULLET-ERROR if they are not two bodies of one world."
+  "Return how deep (m) the bodies A and B penetrate each other, 0 when they are apart, whether
+or not they sleep or ignore their collision.  Signals BULLET-ERROR if they are not two
+bodies of one world."
   (let ((world (same-world a b 'penetration))
         (depth (make-array 1 :element-type 'double-float)))
     (cffi:with-pointer-to-vector-data (depth-pointer depth)

@@ -1,6 +1,6 @@
 ;;;; Shapes.
 ;;;;
-;;;; A shape is data, a list; its origin is the centre of mass of the body that has it (lengths in m):
+;;;; A shape is data, a list; its origin is the centre of mass of its body (lengths in m):
 ;;;;
 ;;;;   (:box x y z)                  full extents
 ;;;;   (:sphere r)

@@ -57,7 +57,11 @@
     (destructuring-bind (a (b &rest c) &key d) '(1 (2 3 4) :d 5) (list a b c d))
     (let ((x 1) (y 2)) (psetq x y y x) (list x y)) (let ((x (list 3 1 2))) (sort x (lambda (a b) (< a b))))
     (prog (x) (setq x 1) (return x)) (let ((n 0)) (do ((i 0 (1+ i))) ((= i 4) n) (incf n i)))
-    (handler-case (error "x") (error () :caught)) (ignore-errors (error "x"))
+    (handler-case (error "x") (error () :caught)) (first (multiple-value-list (ignore-errors (error "x"))))
+    (handler-case (values 1 2) (error () 3) (:no-error (a b) (list b a))) (handler-case 5 (error () 6))
+    (handler-case (error "~a" 1) (warning () 2) (error (e) (princ-to-string e)))
+    (let ((log '())) (block nil (handler-bind ((error (lambda (e) (push (type-of e) log) (return log))))
+      (handler-bind ((error (lambda (e) (declare (ignore e)) (push :inner log)))) (error "x")))))
     (plan:with-failure-handling ((plan:plan-failure () (return 7))) (plan:fail))
     (plan:with-retry-counters ((c 2)) (let ((n 0)) (plan:with-failure-handling
       ((plan:plan-failure () (plan:do-retry c (plan:retry)) (return n))) (incf n) (plan:fail)))))

@@ -8,7 +8,7 @@
    #:plan #:plan-name #:plan-lambda-list #:plan-body #:plan-documentation #:plan-position
    #:plan-top-level-p #:find-plan #:plan-source #:load-plan
    ;; failures
-   #:fail #:with-failure-handling #:retry
+   #:fail #:with-failure-handling #:retry #:call-with-failure-handlers
    #:with-retry-counters #:do-retry #:get-counter #:reset-counter
    #:plan-failure #:simple-plan-failure
    #:low-level-failure #:low-level-failure-description

@@ -1,0 +1,44 @@
+;;;; HANDLER-BIND and HANDLER-CASE, whose expansions are SBCL's internal matter.
+
+(in-package #:discrepancy-finder.symbolic-execution)
+
+(define-analyzer handler-bind (form scope)
+  (destructuring-bind (bindings . body) (rest form)
+    (let ((types (mapcar #'first bindings))
+          (handlers (mapcar (lambda (binding) (analyze (second binding) scope)) bindings))
+          (run (analyze-body body scope)))
+      (lambda (frame)
+        (plan:call-with-failure-handlers
+         (loop for type in types for handler in handlers
+               collect (cons type (let ((function (funcall handler frame)))
+                                    (if (symbolp function) (global-function function) function))))
+         (lambda () (funcall run frame)))))))
+
+(define-analyzer handler-case (form scope)
+  (destructuring-bind (protected . clauses) (rest form)
+    (let* ((no-error (find :no-error clauses :key #'first))
+           (clauses (remove no-error clauses))
+           (tags (loop for nil in clauses collect (gensym "CLAUSE")))
+           (block (gensym "HANDLER-CASE"))
+           (condition (gensym "CONDITION")))
+      (analyze
+       `(block ,block
+          (let ((,condition nil))
+            (tagbody
+               (return-from ,block
+                 ,(let ((guarded `(handler-bind
+                                      ,(loop for (type) in clauses for tag in tags
+                                             collect `(,type (lambda (signaled)
+                                                               (setq ,condition signaled)
+                                                               (go ,tag))))
+                                    ,protected)))
+                    (if no-error
+                        `(multiple-value-call (lambda ,@(rest no-error)) ,guarded)
+                        guarded)))
+               ,@(loop for (nil lambda-list . body) in clauses for tag in tags
+                       append (list tag
+                                    `(return-from ,block
+                                       ,(if lambda-list
+                                            `(let ((,(first lambda-list) ,condition)) ,@body)
+                                            `(let () ,@body))))))))
+       scope))))
