@@ -12,6 +12,7 @@
 prints as, so that 0.1 typed at a REPL that reads single floats means 0.1d0."
   (float (if (typep number 'single-float) (rationalize number) number) 1d0))
 
+(declaim (inline %make-pose quaternion-pose))
 (defstruct (pose (:constructor %make-pose (x y z qx qy qz qw)) (:copier nil))
   "A position (m) and a unit quaternion."
   (x 0d0 :type double-float :read-only t)
@@ -66,6 +67,10 @@ axes x, y and z, in this order, as URDF has it.  The arguments are reals."
   (destructuring-bind (x y z qx qy qz qw) components
     (%make-pose x y z qx qy qz qw)))
 
+;;; Composition is in the inner loop of every simulation: forward kinematics at each step.
+
+(declaim (inline multiply-quaternions rotate))
+
 (defun multiply-quaternions (ax ay az aw bx by bz bw)
   (declare (double-float ax ay az aw bx by bz bw))
   (values (+ (* aw bx) (* ax bw) (* ay bz) (- (* az by)))
@@ -75,7 +80,8 @@ axes x, y and z, in this order, as URDF has it.  The arguments are reals."
 
 (defun rotate (pose x y z)
   "Return, as three values, the vector X, Y, Z turned by the orientation of POSE."
-  (with-accessors ((qx pose-qx) (qy pose-qy) (qz pose-qz) (qw pose-qw)) pose
+  (declare (type pose pose) (double-float x y z))
+  (let ((qx (pose-qx pose)) (qy (pose-qy pose)) (qz (pose-qz pose)) (qw (pose-qw pose)))
     (multiple-value-bind (tx ty tz tw) (multiply-quaternions qx qy qz qw x y z 0d0)
       (multiple-value-bind (rx ry rz) (multiply-quaternions tx ty tz tw (- qx) (- qy) (- qz) qw)
         (values rx ry rz)))))
@@ -83,6 +89,7 @@ axes x, y and z, in this order, as URDF has it.  The arguments are reals."
 (defun compose (outer inner)
   "Return the pose of INNER, which is given in the frame of OUTER, in the frame in which OUTER is
 given."
+  (declare (type pose outer inner) (optimize speed))
   (multiple-value-bind (x y z) (rotate outer (pose-x inner) (pose-y inner) (pose-z inner))
     (multiple-value-bind (qx qy qz qw)
         (multiply-quaternions (pose-qx outer) (pose-qy outer) (pose-qz outer) (pose-qw outer)

@@ -20,10 +20,12 @@
          (scene (projection-scene projection))
          (roles '(:lift :shoulder :extension))
          (goals (list lift shoulder extension))
-         (starts (loop for role in roles collect (joint-position robot role))))
+         (starts (loop for role in roles collect (joint-position robot role)))
+         (positions (joint-positions robot))
+         (numbers (loop for role in roles collect (frame-number robot role))))
     (call-along-profile (lambda (fraction)
-                          (loop for role in roles for start in starts for goal in goals
-                                do (setf (joint-position robot role)
+                          (loop for number in numbers for start in starts for goal in goals
+                                do (setf (aref positions number)
                                          (interpolate start goal fraction)))
                           (step-projection projection)
                           nil)

@@ -16,8 +16,8 @@
 (defun fixture-contact (projection)
   "Return the names of a link and a fixture that touch in PROJECTION, or NIL."
   (dolist (fixture (projection-fixtures projection))
-    (loop for (nil . link) in (link-bodies (projection-robot projection))
-          when (and fixture (plusp (bullet:penetration link fixture)))
+    (loop for link in (link-bodies (projection-robot projection))
+          when (plusp (bullet:penetration link fixture))
             do (return-from fixture-contact
                  (list (bullet:body-name link) (bullet:body-name fixture))))))
 

@@ -30,19 +30,9 @@
 (defun part-pose (part poses)
   (getf poses (scene-part-name part) (scene-part-pose part)))
 
-(defun add-model (part pose world kind mass)
-  "Add the links of a model without moving joints to WORLD and return the last body."
-  (let ((robot (make-instance 'robot :part part :base-pose pose))
-        (body nil))
-    (map-link-poses
-     (lambda (name link-pose)
-       (let ((link (find name (urdf-model-links (scene-part-model part))
-                         :key #'urdf-link-name :test #'string=)))
-         (when (urdf-link-shape link)
-           (setf body (bullet:add-body world (link-body-name robot name) (urdf-link-shape link)
-                                       link-pose :kind kind :mass mass)))))
-     robot)
-    body))
+(defun add-model (part poses world kind)
+  "Add the links of PART, a fixture or an item, to WORLD and return their bodies."
+  (add-links (make-instance 'robot :part part :base-pose (part-pose part poses)) world kind))
 
 (defun make-projection (scene &key poses)
   "Return a new PROJECTION of SCENE.  POSES is a property list of poses that replace the scene's
@@ -52,17 +42,14 @@ own, by the name (a keyword) of the robot or item.  Signals BULLET-ERROR for imp
          (robot (and part (make-instance 'robot :part part :base-pose (part-pose part poses)))))
     (bullet:add-body world "ground" '(:plane 0d0 0d0 1d0 0d0) (identity-pose) :kind :static)
     (let ((fixtures (loop for part in (parts-of-kind scene :fixture)
-                          collect (add-model part (part-pose part poses) world :static 0d0))))
-      (when robot (add-robot-links robot world))
+                          append (add-model part poses world :static))))
+      (when robot (add-links robot world :kinematic))
       (make-instance
        'projection
        :scene scene :world world :robot robot :fixtures fixtures
        :items (loop for part in (parts-of-kind scene :item)
                     collect (cons (scene-part-name part)
-                                  (add-model part (part-pose part poses) world :dynamic
-                                             (urdf-link-mass
-                                              (first (urdf-model-links
-                                                      (scene-part-model part)))))))))))
+                                  (first (add-model part poses world :dynamic))))))))
 
 (defun close-projection (projection)
   "Free the world of PROJECTION."
@@ -107,8 +94,8 @@ the names of the two bodies.  The robot's links and the fixtures count, too."
     (let ((worst depth)
           (names (and one (list (bullet:body-name one) (bullet:body-name other)))))
       (dolist (fixture (projection-fixtures projection) (values worst names))
-        (when (and fixture (projection-robot projection))
-          (loop for (nil . link) in (link-bodies (projection-robot projection))
+        (when (projection-robot projection)
+          (loop for link in (link-bodies (projection-robot projection))
                 for depth = (bullet:penetration link fixture)
                 when (> depth worst)
                   do (setf worst depth

@@ -1,58 +1,69 @@
 ;;;; The robot: a planar base with a tree of links, posed by forward kinematics.
 ;;;;
 ;;;; A ROBOT holds the pose of its base and the positions of its joints.  Its links are kinematic
-;;;; bodies; UPDATE-LINKS moves them to where forward kinematics puts them, PLACE-LINKS teleports.
+;;;; bodies; UPDATE-LINKS moves them to where forward kinematics puts them.
 ;;;; The arm is a carriage that lifts a shoulder that turns a telescopic arm, so that inverse
 ;;;; kinematics is in closed form: ARM-CONFIGURATION.
 
 (in-package #:discrepancy-finder.projection)
 
+(defstruct (link-frame (:copier nil))
+  "A link of a robot: JOINT connects it to the link with the number PARENT (both NIL for the root),
+BODY is its body in the world, NIL if it has no shape."
+  (link nil :type urdf-link :read-only t)
+  (joint nil :type (or null urdf-joint) :read-only t)
+  (parent nil :type (or null fixnum) :read-only t)
+  (body nil))
+
 (defclass robot ()
   ((part :initarg :part :reader robot-part :type scene-part)
    (base-pose :initarg :base-pose :accessor base-pose :type pose)
-   (positions :reader joint-positions :type hash-table
-              :documentation "The position (m or rad) of each joint that moves, by its name.")
-   (bodies :initform '() :accessor link-bodies
-           :documentation "List of (link-name . body) for the links that have a shape."))
+   (frames :reader robot-frames :type simple-vector
+           :documentation "The link frames, parents first.")
+   (positions :reader joint-positions :type (simple-array double-float (*))
+              :documentation "For each frame the position (m or rad) of its joint.")
+   (poses :reader link-poses :type simple-vector
+          :documentation "For each frame its pose in the world, by the last UPDATE-POSES."))
   (:documentation "The robot of a projection."))
 
-(defun robot-model (robot)
-  (scene-part-model (robot-part robot)))
+(defun make-frames (model)
+  (let ((frames '()) (names '()))
+    (flet ((add (name joint)
+             (push (make-link-frame :link (find name (urdf-model-links model)
+                                                :key #'urdf-link-name :test #'string=)
+                                    :joint joint
+                                    :parent (and joint (position (urdf-joint-parent joint)
+                                                                 (reverse names) :test #'string=)))
+                   frames)
+             (push name names)))
+      (add (urdf-model-root model) nil)
+      (dolist (joint (urdf-model-joints model))
+        (add (urdf-joint-child joint) joint)))
+    (coerce (nreverse frames) 'simple-vector)))
 
-(defun movable-p (joint)
-  (not (eq (urdf-joint-type joint) :fixed)))
+(defun initial-position (joint)
+  "Return the position of JOINT that is nearest to 0 within its limits."
+  (if joint
+      (max (or (urdf-joint-lower joint) 0d0) (min 0d0 (or (urdf-joint-upper joint) 0d0)))
+      0d0))
 
 (defmethod initialize-instance :after ((robot robot) &key)
-  (let ((positions (make-hash-table :test 'equal)))
-    (dolist (joint (urdf-model-joints (robot-model robot)))
-      (when (movable-p joint)
-        (setf (gethash (urdf-joint-name joint) positions)
-              (max 0d0 (or (urdf-joint-lower joint) 0d0)))))
-    (setf (slot-value robot 'positions) positions)))
-
-(defun role (robot name)
-  "Return the name of the joint or link that has the role NAME in ROBOT."
-  (getf (scene-part-roles (robot-part robot)) name))
-
-(defun joint-position (robot role)
-  "Return the position of the joint with ROLE (:lift, :shoulder or :extension) of ROBOT."
-  (gethash (role robot role) (joint-positions robot)))
-
-(defun (setf joint-position) (value robot role)
-  (setf (gethash (role robot role) (joint-positions robot)) value))
-
-(defun find-joint (robot role)
-  (find (role robot role) (urdf-model-joints (robot-model robot))
-        :key #'urdf-joint-name :test #'string=))
+  (with-slots (frames positions poses) robot
+    (setf frames (make-frames (scene-part-model (robot-part robot)))
+          positions (map '(simple-array double-float (*))
+                         (lambda (frame) (initial-position (link-frame-joint frame)))
+                         frames)
+          poses (make-array (length frames)))
+    (update-poses robot)))
 
 ;;; Forward kinematics
 
 (defun joint-motion (joint position)
   "Return the pose of JOINT's child in its origin frame at POSITION."
+  (declare (double-float position))
   (destructuring-bind (ax ay az) (urdf-joint-axis joint)
     (declare (double-float ax ay az))
     (ecase (urdf-joint-type joint)
-      (:fixed (identity-pose))
       (:prismatic (quaternion-pose (* ax position) (* ay position) (* az position)
                                    0d0 0d0 0d0 1d0))
       ((:revolute :continuous)
@@ -60,66 +71,84 @@
          (quaternion-pose 0d0 0d0 0d0 (* ax sine) (* ay sine) (* az sine)
                           (cos (/ position 2))))))))
 
-(defun map-link-poses (function robot)
-  "Call FUNCTION with the name of each link of ROBOT and its pose in the world."
-  (let ((poses (list (cons (urdf-model-root (robot-model robot)) (base-pose robot)))))
-    (funcall function (car (first poses)) (cdr (first poses)))
-    (dolist (joint (urdf-model-joints (robot-model robot)))
-      (let* ((parent (cdr (assoc (urdf-joint-parent joint) poses :test #'eq)))
-             (parent (or parent (cdr (assoc (urdf-joint-parent joint) poses :test #'string=))))
-             (origin (compose parent (urdf-joint-origin joint)))
-             (pose (if (movable-p joint)
-                       (compose origin
-                                (joint-motion joint (gethash (urdf-joint-name joint)
-                                                             (joint-positions robot))))
-                       origin)))
-        (push (cons (urdf-joint-child joint) pose) poses)
-        (funcall function (urdf-joint-child joint) pose)))))
+(defun update-poses (robot)
+  "Compute the poses of all links of ROBOT from its base pose and joint positions; return them."
+  (let ((poses (link-poses robot)) (positions (joint-positions robot)))
+    (declare (simple-vector poses) (type (simple-array double-float (*)) positions))
+    (loop for frame across (the simple-vector (robot-frames robot))
+          for index of-type fixnum from 0
+          for joint = (link-frame-joint frame)
+          do (setf (svref poses index)
+                   (if joint
+                       (let ((origin (compose (svref poses (link-frame-parent frame))
+                                              (urdf-joint-origin joint))))
+                         (if (eq (urdf-joint-type joint) :fixed)
+                             origin
+                             (compose origin (joint-motion joint (aref positions index)))))
+                       (base-pose robot))))
+    poses))
 
-(defun link-pose (robot link-name)
-  "Return the pose of the link LINK-NAME of ROBOT in the world."
-  (map-link-poses (lambda (name pose)
-                    (when (string= name link-name)
-                      (return-from link-pose pose)))
-                  robot))
+(defun frame-number (robot role)
+  "Return the number of the frame whose link, or whose joint, has ROLE in ROBOT."
+  (let ((name (getf (scene-part-roles (robot-part robot)) role)))
+    (position-if (lambda (frame)
+                   (or (string= name (urdf-link-name (link-frame-link frame)))
+                       (and (link-frame-joint frame)
+                            (string= name (urdf-joint-name (link-frame-joint frame))))))
+                 (robot-frames robot))))
+
+(defun find-joint (robot role)
+  "Return the joint that has ROLE (:lift, :shoulder or :extension) in ROBOT."
+  (link-frame-joint (svref (robot-frames robot) (frame-number robot role))))
+
+(defun joint-position (robot role)
+  "Return the position (m or rad) of the joint with ROLE in ROBOT."
+  (aref (joint-positions robot) (frame-number robot role)))
 
 (defun gripper-pose (robot)
   "Return the pose of the tip of ROBOT's gripper."
-  (link-pose robot (role robot :gripper)))
+  (svref (update-poses robot) (frame-number robot :gripper)))
 
 ;;; Bodies
 
-(defun add-robot-links (robot world)
-  "Add the links of ROBOT to WORLD as kinematic bodies."
-  (let ((links (urdf-model-links (robot-model robot))))
-    (map-link-poses
-     (lambda (name pose)
-       (let ((link (find name links :key #'urdf-link-name :test #'string=)))
-         (when (urdf-link-shape link)
-           (push (cons name (bullet:add-body world (link-body-name robot name)
-                                             (urdf-link-shape link) pose :kind :kinematic))
-                 (link-bodies robot)))))
-     robot)
-    (setf (link-bodies robot) (nreverse (link-bodies robot)))))
+(defun add-links (robot world kind)
+  "Add the links of ROBOT, or of another model, to WORLD as bodies of KIND, with their own masses if
+that is :DYNAMIC.  Return the bodies."
+  (loop for frame across (robot-frames robot)
+        for pose across (update-poses robot)
+        for link = (link-frame-link frame)
+        when (urdf-link-shape link)
+          collect (setf (link-frame-body frame)
+                        (bullet:add-body world
+                                         (format nil "~(~a~)/~a"
+                                                 (scene-part-name (robot-part robot))
+                                                 (urdf-link-name link))
+                                         (urdf-link-shape link) pose
+                                         :kind kind
+                                         :mass (if (eq kind :dynamic) (urdf-link-mass link) 0d0)))))
 
-(defun link-body-name (robot link-name)
-  (format nil "~(~a~)/~a" (scene-part-name (robot-part robot)) link-name))
+(defun link-bodies (robot)
+  "Return the bodies of ROBOT's links."
+  (loop for frame across (robot-frames robot)
+        when (link-frame-body frame) collect it))
 
 (defun update-links (robot)
   "Move the bodies of ROBOT's links to their poses; Bullet derives their velocities."
-  (map-link-poses (lambda (name pose)
-                    (let ((entry (assoc name (link-bodies robot) :test #'eq)))
-                      (when entry (bullet:move-body (cdr entry) pose))))
-                  robot))
+  (let ((poses (update-poses robot)))
+    (declare (simple-vector poses))
+    (loop for frame across (the simple-vector (robot-frames robot))
+          for index of-type fixnum from 0
+          for body = (link-frame-body frame)
+          when body do (bullet:move-body body (svref poses index)))))
 
 (defun gripper-body (robot)
-  (cdr (assoc (role robot :gripper) (link-bodies robot) :test #'string=)))
+  (link-frame-body (svref (robot-frames robot) (frame-number robot :gripper))))
 
 ;;; Inverse kinematics of the arm
 
 (defun shoulder-distance (robot pose)
   "Return the horizontal distance (m) from ROBOT's shoulder to the position of POSE."
-  (planar-distance (link-pose robot (urdf-joint-child (find-joint robot :shoulder))) pose))
+  (planar-distance (svref (update-poses robot) (frame-number robot :shoulder)) pose))
 
 (defun within-limits-p (joint position)
   (and (<= (or (urdf-joint-lower joint) position) position)

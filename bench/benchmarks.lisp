@@ -1,0 +1,96 @@
+;;;; The benchmarks of `discrepancy-finder bench`.
+;;;;
+;;;; Times are of the wall clock, on a machine that others may use, too: of several rounds the median
+;;;; counts, and where there is a peer it runs in turn with us and the ratio is what to look at.
+
+(in-package #:discrepancy-finder.bench)
+
+(defun median (numbers)
+  (let ((sorted (sort (copy-list numbers) #'<)))
+    (nth (floor (length sorted) 2) sorted)))
+
+(defun seconds-of (function)
+  (let ((start (foreign:monotonic-seconds)))
+    (funcall function)
+    (- (foreign:monotonic-seconds) start)))
+
+(defun median-seconds (function &key (rounds 9))
+  "Return the median of the seconds that ROUNDS calls of FUNCTION take, after one that is not
+counted."
+  (funcall function)
+  (median (loop repeat rounds collect (seconds-of function))))
+
+(defun foreign-call-nanoseconds ()
+  "Return the time (ns) of a trivial call into Z3, and of reading the pose of a body from Bullet."
+  (let ((calls 1000000))
+    (flet ((per-call (seconds) (/ (* 1d9 seconds) calls)))
+      (z3:with-context (context)
+        (let ((pointer (z3::context-pointer context)))
+          (bullet:with-world (world)
+            (let ((body (bullet:add-body world "box" '(:box 1d0 1d0 1d0) (geometry:identity-pose)
+                                         :mass 1d0)))
+              (values
+               (per-call (median-seconds (lambda ()
+                                           (dotimes (i calls) (z3::z3-get-error-code pointer)))))
+               (per-call (median-seconds (lambda ()
+                                           (dotimes (i calls) (bullet:body-pose body)))))))))))))
+
+(defun compiled-peer ()
+  "Compile steps.cpp, if it has changed, and return the program's path."
+  (let ((source (asdf:system-relative-pathname "discrepancy-finder" "bench/steps.cpp"))
+        (program (asdf:system-relative-pathname "discrepancy-finder" "build/steps")))
+    (unless (and (uiop:file-exists-p program)
+                 (> (file-write-date program) (file-write-date source)))
+      (ensure-directories-exist program)
+      (uiop:run-program (list (or (uiop:getenvp "CXX") "g++") "-std=c++17" "-O2"
+                              "-DBT_USE_DOUBLE_PRECISION" "-isystem" "/usr/include/bullet"
+                              (namestring source) "-o" (namestring program)
+                              "-lBulletDynamics-float64" "-lBulletCollision-float64"
+                              "-lLinearMath-float64")
+                        :error-output *error-output*))
+    program))
+
+(defun compare-steps (&key (rounds 9) (steps 60000))
+  "Return the median steps/s through Lisp and in plain C++, and the median ratio of the times, pair
+by pair."
+  (let ((program (compiled-peer)) (ours '()) (theirs '()))
+    (lisp-steps-per-second steps)
+    (loop repeat rounds
+          do (push (lisp-steps-per-second steps) ours)
+             (push (plain-steps-per-second steps program) theirs))
+    (values (median ours) (median theirs) (median (mapcar #'/ theirs ours)))))
+
+(defun example-trace ()
+  (first (df:exploration-traces (df:explore-plan 'discrepancy-finder-user::move-the-box
+                                                 :domain :two-regions))))
+
+(defun samples-per-second (&key (samples 40))
+  "Return how many samples of Example 1 a second are drawn, simulated and judged."
+  (let* ((trace (example-trace))
+         (domain (discrepancy:ensure-domain :two-regions))
+         (parameters (discrepancy:initial-parameters domain trace)))
+    (z3:with-context (context)
+      (/ samples
+         (seconds-of (lambda ()
+                       (dotimes (index samples)
+                         (discrepancy:judge-run
+                          domain
+                          (discrepancy:execute-sample
+                           domain 'discrepancy-finder-user::move-the-box
+                           (discrepancy:draw-sample parameters 1 1 index) :trace trace)
+                          trace :context context))))))))
+
+(defun print-benchmarks (&optional (stream *standard-output*))
+  "Run the benchmarks and print their figures to STREAM."
+  (multiple-value-bind (z3 bullet) (foreign-call-nanoseconds)
+    (format stream "foreign call              ~,1f ns (Z3, error code), ~,1f ns (Bullet, pose of a body)~%"
+            z3 bullet))
+  (multiple-value-bind (ours theirs ratio) (compare-steps)
+    (format stream "Bullet steps              ~,0f /s through Lisp, ~,0f /s in plain C++, ~
+                    time ratio ~,3f~%" ours theirs ratio))
+  (format stream "samples of Example 1      ~,1f /s, each ~,1f s simulated at 240 Hz~%"
+          (samples-per-second)
+          (discrepancy:run-seconds (df:run-plan 'discrepancy-finder-user::move-the-box
+                                                :domain :two-regions)))
+  (format stream "symbolic execution        ~,2f ms for Example 1~%"
+          (* 1d3 (median-seconds (lambda () (example-trace)) :rounds 21))))

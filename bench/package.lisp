@@ -1,0 +1,15 @@
+(defpackage #:discrepancy-finder.bench
+  (:documentation "Benchmarks: each measures one part of the system against a peer that does the
+same work without it.")
+  (:use #:cl)
+  (:local-nicknames (#:bullet #:discrepancy-finder.bullet)
+                    (#:foreign #:discrepancy-finder.foreign)
+                    (#:geometry #:discrepancy-finder.geometry)
+                    (#:z3 #:discrepancy-finder.z3)
+                    (#:discrepancy #:discrepancy-finder.discrepancy)
+                    (#:df #:discrepancy-finder))
+  (:export
+   ;; all of them
+   #:print-benchmarks
+   ;; steps of a Bullet world, through Lisp and in plain C++
+   #:lisp-steps-per-second #:plain-steps-per-second))
