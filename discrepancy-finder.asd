@@ -169,7 +169,7 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "random") (:file "quantile") (:file "least-squares")
                              (:file "confidence") (:file "abstraction") (:file "search")
                              (:file "replay")))
-               (:file "interface"))
+               (:file "interface") (:file "readme"))
   :perform (asdf:test-op (operation system)
              (uiop:symbol-call '#:discrepancy-finder.tests '#:run-all-tests)))
 

@@ -51,7 +51,7 @@ domain."))
   ((discrepancy :initarg :discrepancy :reader discrepancy-found-discrepancy
                 :documentation "The DISCREPANCY."))
   (:report (lambda (condition stream)
-             (format stream "Theory and simulation disagree: ~a."
-                     (discrepancy-found-discrepancy condition))))
+             (format stream "Theory and simulation part at ~a."
+                     (discrepancy-summary (discrepancy-found-discrepancy condition)))))
   (:documentation "Signaled by FIND-DISCREPANCIES with :on-discrepancy :signal, with the restarts
 CONTINUE-SEARCH, NEXT-TRACE and ACCEPT."))

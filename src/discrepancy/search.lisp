@@ -26,15 +26,20 @@
   (confirmed-p nil :type boolean :read-only t)
   (file nil :type (or null string)))
 
-(defmethod print-object ((discrepancy discrepancy) stream)
+(defun discrepancy-summary (discrepancy)
+  "Return where theory and simulation part in DISCREPANCY, as a clause."
   (let* ((divergence (judgement-divergence (discrepancy-judgement discrepancy)))
          (step (nth (divergence-step divergence) (run-steps (discrepancy-run discrepancy)))))
-    (print-unreadable-object (discrepancy stream :type t)
-      (format stream "~(~a~) step ~d ~a~{ ~a~}" (plan:plan-name (discrepancy-plan discrepancy))
-              (1+ (divergence-step divergence)) (run-step-designator step)
-              (loop for (atom theory simulation) in (divergence-fluents divergence)
-                    collect (format nil "~a theory=~:[no~;yes~] simulation=~:[no~;yes~]"
-                                    (ec:atom-text atom) theory simulation))))))
+    (format nil "step ~d, ~a~:{; ~a is ~:[false~;true~] in the theory, ~:[false~;true~] in the ~
+                 simulation~}"
+            (1+ (divergence-step divergence)) (run-step-designator step)
+            (loop for (atom . values) in (divergence-fluents divergence)
+                  collect (cons (ec:atom-text atom) values)))))
+
+(defmethod print-object ((discrepancy discrepancy) stream)
+  (print-unreadable-object (discrepancy stream :type t)
+    (format stream "~(~a~): ~a" (plan:plan-name (discrepancy-plan discrepancy))
+            (discrepancy-summary discrepancy))))
 
 (defstruct (trace-result (:copier nil))
   "What sampling a trace came to: STATUS is :CERTIFIED, :DISCREPANCY, :UNDECIDED or :SKIPPED."

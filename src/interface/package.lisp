@@ -28,7 +28,7 @@
                 #:result-simulations #:result-iterations #:result-exploration
                 #:discrepancy #:discrepancy-text #:discrepancy-trace #:discrepancy-sample
                 #:discrepancy-run #:discrepancy-judgement
-                #:run-plan #:run-steps #:run-final-state #:run-hash
+                #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
                 #:save-discrepancy #:replay #:replay-status #:replay-text
                 #:discrepancy-found #:discrepancy-found-discrepancy
                 #:continue-search #:next-trace #:accept
@@ -48,7 +48,7 @@
    #:exploration-paths #:exploration-gaps
    #:execution-trace #:trace-initial-state #:trace-steps #:trace-final-state
    ;; projection
-   #:run-plan #:run-steps #:run-final-state #:run-hash
+   #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
    ;; the search
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-text
    #:result-discrepancy #:result-discrepancies #:result-traces #:result-simulations
