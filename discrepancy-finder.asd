@@ -6,8 +6,7 @@
 ;;;; fetches it.  Only src/json/json.lisp knows the outcome.
 
 (defpackage #:discrepancy-finder-system
-  (:use #:cl)
-  (:export #:shared-library-source))
+  (:use #:cl))
 (in-package #:discrepancy-finder-system)
 
 (defclass asdf-user::shared-library-source (asdf:source-file)
@@ -169,7 +168,8 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "random") (:file "quantile") (:file "least-squares")
                              (:file "confidence") (:file "abstraction") (:file "search")
                              (:file "replay")))
-               (:file "interface") (:file "readme"))
+               (:file "interface") (:file "readme")
+               (:file "documentation"))
   :perform (asdf:test-op (operation system)
              (uiop:symbol-call '#:discrepancy-finder.tests '#:run-all-tests)))
 

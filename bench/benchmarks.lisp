@@ -1,7 +1,7 @@
 ;;;; The benchmarks of `discrepancy-finder bench`.
 ;;;;
-;;;; Times are of the wall clock, on a machine that others may use, too: of several rounds the median
-;;;; counts, and where there is a peer it runs in turn with us and the ratio is what to look at.
+;;;; Times are of the wall clock, on a machine that others may use, too: of several rounds the
+;;;; median counts, and where there is a peer it runs in turn with us and the ratio is what counts.
 
 (in-package #:discrepancy-finder.bench)
 
@@ -83,8 +83,8 @@ by pair."
 (defun print-benchmarks (&optional (stream *standard-output*))
   "Run the benchmarks and print their figures to STREAM."
   (multiple-value-bind (z3 bullet) (foreign-call-nanoseconds)
-    (format stream "foreign call              ~,1f ns (Z3, error code), ~,1f ns (Bullet, pose of a body)~%"
-            z3 bullet))
+    (format stream "foreign call              ~,1f ns (Z3, error code), ~,1f ns (Bullet, pose of a ~
+                    body)~%" z3 bullet))
   (multiple-value-bind (ours theirs ratio) (compare-steps)
     (format stream "Bullet steps              ~,0f /s through Lisp, ~,0f /s in plain C++, ~
                     time ratio ~,3f~%" ours theirs ratio))

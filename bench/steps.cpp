@@ -31,10 +31,6 @@ btTransform at(double x, double y, double z) {
   return btTransform(btQuaternion(0, 0, 0, 1), btVector3(x, y, z));
 }
 
-btTransform link_pose(int link, int step) {
-  return at(0.25 * link + 0.0001 * (step % 1000), -0.5, 0.5);
-}
-
 struct Scene {
   btDefaultCollisionConfiguration configuration{small_pools()};
   btCollisionDispatcher dispatcher{&configuration};
@@ -43,6 +39,8 @@ struct Scene {
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
   std::vector<std::unique_ptr<btRigidBody>> bodies;
+  // Data, as the quaternions are in Lisp, and no constant that the compiler folds into a matrix.
+  btQuaternion turn{0, 0, 0, 1};
 
   Scene() {
     gDeactivationTime = 0.2;
@@ -61,6 +59,10 @@ struct Scene {
   }
 
   btRigidBody &link(int i) { return *bodies[2 + i]; }
+
+  btTransform link_pose(int i, int step) const {
+    return btTransform(turn, btVector3(0.25 * i + 0.0001 * (step % 1000), -0.5, 0.5));
+  }
 
   void add(btCollisionShape *shape, const btTransform &pose, double mass, bool kinematic) {
     shapes.emplace_back(shape);

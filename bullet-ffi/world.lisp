@@ -99,12 +99,14 @@ value of the whole form when the status is :NOTHING."
          (:fraction (<= 0 number 1)))))
 
 (defun number-of (thing value operation &optional (sort :finite))
-  "Return the real VALUE as a double float.  If it is not of SORT, signal that OPERATION got it for
-THING."
+  "Return the real VALUE as a double float, by GEOMETRY:DECIMAL-DOUBLE.  If it is not of SORT,
+signal that OPERATION got it for THING."
   (let ((number (typecase value
                   (double-float value)
-                  (single-float (float value 1d0))
-                  ((rational -1000000000 1000000000) (float value 1d0)))))
+                  (single-float (unless (or (sb-ext:float-nan-p value)
+                                            (sb-ext:float-infinity-p value))
+                                  (geometry:decimal-double value)))
+                  ((rational -1000000000 1000000000) (geometry:decimal-double value)))))
     (if (and number (in-range-p number sort))
         number
         (fail operation "~a is ~s, but must be ~a" thing value

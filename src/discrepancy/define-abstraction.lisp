@@ -72,7 +72,8 @@
   (source:destructuring-or (pattern &key body coordinates) (rest clause)
       (abstraction-problem name clause "(:placement (fluent ?region) :body name :coordinates ~
                                         (coordinate*)) was expected")
-    (let* ((fluent (and (consp pattern) (symbolp (first pattern)) (ec:name-keyword (first pattern))))
+    (let* ((fluent (and (consp pattern) (symbolp (first pattern))
+                        (ec:name-keyword (first pattern))))
            (declaration (assoc fluent (ec:theory-fluents theory))))
       (unless (and declaration (= (length pattern) 2 (length declaration)))
         (abstraction-problem name clause "~a is no fluent of a region in theory ~a"

@@ -3,8 +3,8 @@
 ;;;; EXECUTE-SAMPLE builds the world, lets it settle, checks that the sample is valid, and runs the
 ;;;; compiled plan with a MONITOR for its executive.  The monitor lets the projection perform each
 ;;;; designator and records event, outcome and observed state.  With :EXECUTION :TRACE the run stops
-;;;; at the first step that differs from the trace's, or at the trace's end; with :PLAN it goes on to
-;;;; the plan's end.
+;;;; at the first step that differs from the trace's, or at the trace's end; with :PLAN it goes on
+;;;; to the plan's end.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -140,7 +140,9 @@ steps; EXECUTION is :TRACE or :PLAN.  The same arguments give the same bits."
                (make-run :sample sample :validity validity :ending ending
                          :initial-state initial-state :steps steps
                          :final-state (discrete-state domain projection)
-                         :final-values (if trace (observed-final-values domain projection trace) #())
+                         :final-values (if trace
+                                           (observed-final-values domain projection trace)
+                                           #())
                          :hash (projection:state-hash projection)
                          :seconds (float (projection:simulated-seconds projection) 1d0))))
         (if (eq validity :valid)

@@ -58,8 +58,8 @@ the Z3 CONTEXT."
       (t (eq (z3:check solver (list proposition)) :sat)))))
 
 (defun differing-fluents (solver state observed)
-  "Return the list of (atom theory-value simulation-value) for the fluents that cannot have the truth
-value OBSERVED in STATE."
+  "Return the list of (atom theory-value simulation-value) for the fluents that cannot have the
+truth value OBSERVED in STATE."
   (loop for (atom . truth) in observed
         for proposition = (ec:fluent-value state atom)
         unless (consistent-p solver (list (if truth proposition (z3:negation proposition))))
@@ -113,9 +113,9 @@ the first divergence or NIL."
        (every #'same-step-p (run-steps run) (symbolic:trace-steps trace))))
 
 (defun judge-run (domain run trace &key (compare :final) (context nil))
-  "Return the JUDGEMENT of the valid RUN, made for TRACE, by the theory of DOMAIN.  COMPARE is :FINAL,
-where a divergence that has healed by the end of the run counts as none, or :EVERY-STEP.  CONTEXT is
-a Z3 context to use, or NIL for a new one."
+  "Return the JUDGEMENT of the valid RUN, made for TRACE, by the theory of DOMAIN.  COMPARE is
+:FINAL, where a divergence that has healed by the end of the run counts as none, or :EVERY-STEP.
+CONTEXT is a Z3 context to use, or NIL for a new one."
   (if (null context)
       (z3:with-context (context)
         (judge-run domain run trace :compare compare :context context))

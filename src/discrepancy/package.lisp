@@ -53,7 +53,7 @@ search, replay.")
    ;; plans and domains by name
    #:ensure-plan #:ensure-domain #:locate-file
    ;; replay
-   #:save-discrepancy #:load-discrepancy #:replay #:replay-result #:replay-status
+   #:save-discrepancy #:replay #:replay-result #:replay-status
    #:replay-discrepancy #:replay-text
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error

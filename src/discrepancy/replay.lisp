@@ -161,7 +161,7 @@ from the files that it names, unless they are defined.  Signals REPLAY-ERROR, SO
             (ecase (replay-status result)
               (:same-bits "SAME BITS: the replayed run ends in the recorded state, bit for bit.")
               (:same-verdict "SAME VERDICT, OTHER BITS: the replayed run is judged as recorded.")
-              (:other-verdict "OTHER VERDICT: the replayed run is judged otherwise than recorded.")))
+              (:other-verdict "OTHER VERDICT: the replayed run is not judged as recorded.")))
     (format stream "  state hash ~a, recorded ~a~%" (hash-text (run-hash (replay-run result)))
             (hash-text (replay-recorded-hash result)))
     (dolist (file (replay-changed-files result))

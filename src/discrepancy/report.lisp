@@ -83,8 +83,8 @@ and simulation part, both final states, and how COMMAND replays it."
       (format stream "  replay it with: ~a replay ~a~%" command (discrepancy-file discrepancy)))))
 
 (defun trace-result-text (result number)
-  (format nil "  trace ~d: ~(~a~), ~a~%    ~d simulation~:p that agree~:*~[~;s~:;~]~@[, ~d rejected~]~
-               ~@[, ~d left the trace~]~%"
+  (format nil "  trace ~d: ~(~a~), ~a~%    ~d simulation~:p that agree~:*~[~;s~:;~]~
+               ~@[, ~d rejected~]~@[, ~d left the trace~]~%"
           number (trace-result-status result) (trace-result-reason result)
           (trace-result-samples result)
           (let ((rejected (trace-result-rejected result))) (and (plusp rejected) rejected))

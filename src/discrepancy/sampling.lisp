@@ -1,7 +1,7 @@
 ;;;; Samples: continuous initial states that map to a trace's discrete one.
 ;;;;
-;;;; The INITIAL-PARAMETERS of a trace are the coordinates of the bodies whose placements hold in its
-;;;; initial state, each with the bounds of its region or its own range.  Sample i draws each
+;;;; The INITIAL-PARAMETERS of a trace are the coordinates of the bodies whose placements hold in
+;;;; its initial state, each with the bounds of its region or its own range.  Sample i draws each
 ;;;; parameter uniformly: a pure function of seed, trace content and i.  The FINAL-PARAMETERS are
 ;;;; the coordinates that the regions of the trace's final state bound: the confidence rule predicts
 ;;;; them.

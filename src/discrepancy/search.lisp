@@ -8,7 +8,7 @@
 (in-package #:discrepancy-finder.discrepancy)
 
 (defparameter *rejection-limit* 200
-  "So many rejected samples in a row, without any valid one, mean that the trace cannot be sampled.")
+  "So many rejected samples, without any valid one, mean that the trace cannot be sampled.")
 
 (defstruct (discrepancy (:copier nil))
   "A sample from which the simulation does what the theory does not allow."
@@ -146,8 +146,9 @@ Return the TRACE-RESULT, and true if the whole search is to end."
                               :trace trace
                               :reason (format nil "all of ~d samples were rejected; the last one ~
                                                    because ~a" rejected (run-validity run))))
-                     (let ((judgement (judge-run domain run trace :context (search-context search)
-                                                                  :compare (search-compare search))))
+                     (let ((judgement (judge-run domain run trace
+                                                 :context (search-context search)
+                                                 :compare (search-compare search))))
                        (ecase (judgement-verdict judgement)
                          (:discrepancy
                           (push (confirmed-discrepancy search sample trace run judgement)

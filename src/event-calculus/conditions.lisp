@@ -7,8 +7,8 @@
 (define-condition theory-error (event-calculus-error)
   ((theory :initarg :theory :reader theory-error-theory :documentation "The theory's name.")
    (axiom :initarg :axiom :initform nil :reader theory-error-axiom
-          :documentation "What is wrong within the theory, as a string such as \"axiom move-leaves\",
-or NIL.")
+          :documentation "What is wrong within the theory, as a string such as \"axiom
+move-leaves\", or NIL.")
    (form :initarg :form :initform nil :reader theory-error-form
          :documentation "The sub-form to blame, or NIL.")
    (reason :initarg :reason :reader theory-error-reason
@@ -39,7 +39,8 @@ known, the axiom, the sub-form and what was expected."))
           :documentation "The names of the constraints that the theory has."))
   (:report (lambda (condition stream)
              (with-slots (name theory known) condition
-               (format stream "Theory ~a has no state constraint~@[ named ~a~]~@[; it has ~{~a~^, ~}~]."
+               (format stream "Theory ~a has no state constraint~@[ named ~a~]~
+                               ~@[; it has ~{~a~^, ~}~]."
                        (name-text theory) (and name (name-text name))
                        (mapcar #'name-text known)))))
   (:documentation "Signaled when a state constraint is asked for that was never defined."))

@@ -3,7 +3,8 @@
 ;;;; A STATE gives each ground fluent a proposition: T, NIL or a Z3 term over the initial state.
 ;;;; PROGRESS rewrites the fluents that an event affects, by the axioms of the Discrete Event
 ;;;; Calculus for inertial fluents:
-;;;;   f holds at t+1  <->  f is initiated at t, or f holds at t and is not terminated   (DEC5, 6, 9, 10)
+;;;;   f holds at t+1  <->  f is initiated at t, or f holds at t and is not terminated
+;;;; (DEC5, DEC6, DEC9, DEC10)
 ;;;; and returns what must be true for that step to be possible: the sentences about the event, the
 ;;;; sentences about the new state, and that nothing is both initiated and terminated.  With a
 ;;;; concrete initial state everything folds to T and NIL, and Z3 is not needed.
@@ -82,7 +83,8 @@ an effect with its opposite."
   (let* ((ground (state-ground state))
          (values (copy-seq (state-values state)))
          (effects (and event (svref (ground-theory-effects ground) event)))
-         (conditions (sentence-conditions (ground-theory-step-sentences ground) (list state) event)))
+         (conditions (sentence-conditions (ground-theory-step-sentences ground) (list state)
+                                          event)))
     (dolist (index (remove-duplicates (mapcar #'second effects)))
       (flet ((affected (kind)
                (z3:disjunction (loop for (effect-kind fluent guard) in effects

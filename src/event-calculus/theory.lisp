@@ -1,7 +1,7 @@
 ;;;; Theories: a description of a world in the Discrete Event Calculus, as data.
 ;;;;
-;;;; (define-theory NAME doc (:sorts ...) (:fluents ...) (:events ...) (:axioms ...)) at the REPL, or
-;;;; the same form in a file for LOAD-THEORY, which evaluates nothing.  Both go through
+;;;; (define-theory NAME doc (:sorts ...) (:fluents ...) (:events ...) (:axioms ...)) at the REPL,
+;;;; or the same form in a file for LOAD-THEORY, which evaluates nothing.  Both go through
 ;;;; PARSE-THEORY.  The axioms' formulas are checked by formula.lisp.
 
 (in-package #:discrepancy-finder.event-calculus)
@@ -120,7 +120,9 @@ has no such sort."
         (error 'theory-error :theory name :position (or (source:form-position clause) position)
                              :reason (format nil "~a was found where one of ~{~(~s~)~^, ~} was ~
                                                   expected"
-                                             (formula-text (if (consp clause) (first clause) clause))
+                                             (formula-text (if (consp clause)
+                                                               (first clause)
+                                                               clause))
                                              known)))
       (let ((key (name-keyword (first clause))))
         (setf (getf options key) (append (getf options key) (rest clause)))))

@@ -1,8 +1,8 @@
 ;;;; The command line: one function a subcommand, options as data.
 ;;;;
 ;;;; MAIN is the toplevel of the executable.  It finds the subcommand, parses its options, and turns
-;;;; what happens into an exit status: 0 certified, 1 discrepancy found, 2 error, 3 undecided.  Every
-;;;; error is one sentence on standard error.
+;;;; what happens into an exit status: 0 certified, 1 discrepancy found, 2 error, 3 undecided.
+;;;; Every error is one sentence on standard error.
 
 (in-package #:discrepancy-finder)
 
@@ -94,7 +94,8 @@ top-level plans, a name; or a name."
                                                      :test-not #'string-equal)
                                   (remove-if-not #'plan:plan-top-level-p plans))))
              (cond ((null candidates)
-                    (usage-problem "~a defines no ~:[top-level plan~;plan named ~:*~a~]." file name))
+                    (usage-problem "~a defines no ~:[top-level plan~;plan named ~:*~a~]."
+                                   file name))
                    ((rest candidates)
                     (usage-problem "~a defines several top-level plans, so name one of~
                                     ~{ ~(~a~)~^,~}." file (mapcar #'plan:plan-name candidates)))

@@ -11,8 +11,9 @@
   "The length of a simulation step, in s.")
 
 (defclass projection ()
-  ((scene :initarg :scene :reader projection-scene :type scene)
-   (world :initarg :world :reader projection-world)
+  ((scene :initarg :scene :reader projection-scene :type scene
+          :documentation "The SCENE that it was made of.")
+   (world :initarg :world :reader projection-world :documentation "The Bullet world.")
    (robot :initarg :robot :reader projection-robot)
    (fixtures :initarg :fixtures :reader projection-fixtures)
    (items :initarg :items :reader projection-items

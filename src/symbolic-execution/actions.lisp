@@ -9,9 +9,12 @@
 (in-package #:discrepancy-finder.symbolic-execution)
 
 (defclass action-theory ()
-  ((name :initarg :name :reader action-theory-name :type keyword)
-   (theory :initarg :theory :reader action-theory-theory :type ec:theory)
-   (ground :reader action-theory-ground :type ec:ground-theory)
+  ((name :initarg :name :reader action-theory-name :type keyword
+         :documentation "The name, a keyword.")
+   (theory :initarg :theory :reader action-theory-theory :type ec:theory
+           :documentation "The THEORY.")
+   (ground :reader action-theory-ground :type ec:ground-theory
+           :documentation "The same, ground.")
    (actions :initarg :actions :initform '() :accessor action-theory-actions
             :documentation "List of action bindings, the youngest first."))
   (:documentation "A theory and what designators mean in it."))
@@ -155,7 +158,7 @@ region of a pose or of a location designator."
          (requires (second (assoc :requires options))))
     (unless (and domain event)
       (error 'plan:malformed-plan-form :form `(define-action (,class ,type))
-                                       :expected "a clause (:domain name) and a clause (:event ...)"))
+                                       :expected "clauses (:domain name) and (:event ...)"))
     (flet ((event-form (event)
              (and event (formula-template event properties)))
            (condition-form (formula)
@@ -206,8 +209,9 @@ ACTION-PROBLEM if there is no binding for it or its arguments mean nothing in th
                                   condition
                                   (ec:ground-formula
                                    ground
-                                   (ec:parse-formula condition (action-theory-theory domain)
-                                                     :blame (format nil "action ~a" designator))))))))
+                                   (ec:parse-formula
+                                    condition (action-theory-theory domain)
+                                    :blame (format nil "action ~a" designator))))))))
 
 (defun region-of (place)
   "Inside DEFINE-ACTION, return the element of the domain's theory that stands for PLACE, a pose or

@@ -15,7 +15,8 @@
                (let ((*print-length* 6) (*print-level* 3) (*print-pretty* nil))
                  (format stream "~@[~a: ~]The symbolic evaluator cannot evaluate ~s: ~a."
                          (and position (princ-to-string position)) form reason)))))
-  (:documentation "Signaled when a plan contains a form that the symbolic evaluator does not know."))
+  (:documentation "Signaled when a plan contains a form that the symbolic evaluator does not
+know."))
 
 (define-condition nondeterministic-plan (symbolic-execution-error)
   ((plan :initarg :plan :reader nondeterministic-plan-plan :documentation "The plan's name.")

@@ -10,8 +10,9 @@
 
 (defclass exploration ()
   ((plan :initarg :plan :reader exploration-plan :documentation "The plan, a PLAN.")
-   (domain :initarg :domain :reader exploration-domain)
-   (constraint :initarg :constraint :reader exploration-constraint)
+   (domain :initarg :domain :reader exploration-domain :documentation "The ACTION-THEORY.")
+   (constraint :initarg :constraint :reader exploration-constraint
+               :documentation "The STATE-CONSTRAINT.")
    (arguments :initarg :arguments :reader exploration-arguments
               :documentation "List of (parameter type), in the order of the lambda list.")
    (max-paths :initarg :max-paths :reader exploration-max-paths)

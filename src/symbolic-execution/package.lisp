@@ -13,14 +13,14 @@
    #:action-binding #:find-action-binding #:find-action-theory #:register-action-theory
    #:all-action-theories
    #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition
-   #:outcome-condition-proposition
    ;; exploration
    #:explore-plan #:make-exploration #:next-trace #:exploration #:exploration-traces
    #:exploration-paths #:exploration-checks #:exploration-seconds #:exploration-complete-p
-   #:exploration-gaps #:exploration-dead-ends #:exploration-plan
+   #:exploration-gaps #:exploration-dead-ends #:exploration-plan #:exploration-domain
+   #:exploration-constraint #:close-exploration
    ;; traces
    #:trace-initial-state #:trace-steps #:trace-states #:trace-final-state #:execution-trace
-   #:trace-plan #:trace-text #:step-text #:states-along #:outcome-transition #:close-exploration #:exploration-domain #:exploration-constraint #:trace-arguments
+   #:trace-plan #:trace-arguments #:trace-text #:step-text #:states-along #:outcome-transition
    #:make-trace-step #:make-execution-trace
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
    ;; symbolic values

@@ -153,4 +153,5 @@
                      (discrepancy::unknown-confidence-rule (condition) condition))))
     (is (eq :papre (discrepancy::unknown-confidence-rule-name condition)))
     (is (member :paper (discrepancy::unknown-confidence-rule-known condition)))
-    (is (eql 0 (search "There is no confidence rule papre; there is " (princ-to-string condition))))))
+    (is (eql 0 (search "There is no confidence rule papre; there is "
+                       (princ-to-string condition))))))
