@@ -31,8 +31,8 @@ FILE is NIL.  Signals PLAN-NOT-FOUND and SOURCE-ERROR."
 
 (defun ensure-domain (domain &optional file)
   "Return DOMAIN if it is a domain, or the domain named by the symbol DOMAIN.  If there is none,
-load FILE, or models/NAME/domain.lisp where FILE is NIL.  Signals DOMAIN-NOT-FOUND, SOURCE-ERROR and what
-DEFINE-ABSTRACTION signals."
+load FILE, or models/NAME/domain.lisp where FILE is NIL.  Signals DOMAIN-NOT-FOUND, SOURCE-ERROR and
+what DEFINE-ABSTRACTION signals."
   (cond ((typep domain 'domain) domain)
         ((find (ec:name-keyword domain) (symbolic:all-action-theories)
                :key #'symbolic:action-theory-name))

@@ -195,8 +195,8 @@ head."
 (defun parse-formula (form theory &key (kind :state) (blame "a formula") (variables '()))
   "Return FORM, a tree of symbols of any package, as a formula of THEORY.  KIND is :STATE, where
 fluents stand for themselves and there is no time, or :CONSTRAINT, with holds-at and happens at
-?time or (+ ?time n).  BLAME names the form in errors; VARIABLES are bound.  Signals THEORY-ERROR, also
-for unbound variables."
+?time or (+ ?time n).  BLAME names the form in errors; VARIABLES are bound.  Signals THEORY-ERROR,
+also for unbound variables."
   (let ((formula (normalize form (theory-name theory) blame)))
     (check-formula (make-scope :theory theory :axiom blame :kind kind :variables variables) formula)
     formula))
