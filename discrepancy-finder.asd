@@ -22,6 +22,13 @@ The environment variable CXX names another compiler than g++."))
                  (format nil "build/lib~a.so" (asdf:component-name file))))
           t))
 
+(defmethod asdf:input-files ((operation asdf:compile-op) (file asdf-user::shared-library-source))
+  ;; The library is also out of date when a header or a part beside its source is newer.
+  (let* ((source (asdf:component-pathname file))
+         (folder (uiop:pathname-directory-pathname source)))
+    (append (list source) (uiop:directory-files folder "*.h")
+            (uiop:directory-files folder "*.inc"))))
+
 (defmethod asdf:perform ((operation asdf:compile-op) (file asdf-user::shared-library-source))
   (let* ((target (asdf:output-file operation file))
          (temporary (make-pathname :type "tmp" :defaults target)))
@@ -162,7 +169,8 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "run") (:file "fixtures")
                (:file "geometry") (:file "source") (:file "json") (:file "z3") (:file "z3-life")
                (:file "event-calculus") (:file "plan-language") (:file "symbolic-execution")
-               (:file "bullet") (:file "projection")
+               (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
+               (:file "projection")
                (:module "discrepancy"
                 :serial t
                 :components ((:file "random") (:file "quantile") (:file "least-squares")

@@ -35,23 +35,26 @@
 (defun attach (parent child)
   "Fix the dynamic body CHILD to the body PARENT, of any kind, where the two are now; return the
 attachment.  Signals BULLET-ERROR if CHILD is not dynamic or they are not two bodies of one world."
-  (let* ((world (same-world parent child 'attach))
-         (id (invoke ('attach pointer world)
-                 (%attach pointer (body-id parent) (body-id child))
-               (:bad-kind (format nil "body ~a is ~(~a~), and only dynamic bodies can be attached"
-                                  (body-name child) (body-kind child)))))
-         (attachment (%make-attachment id parent child)))
-    (push attachment (world-attachment-list world))
-    attachment))
+  (let ((world (same-world parent child 'attach)))
+    (invoke ('attach pointer world)
+        (let ((id (%attach pointer (body-id parent) (body-id child))))
+          (when (>= id 0)
+            (push (%make-attachment id parent child) (world-attachment-list world)))
+          id)
+      (:bad-kind (format nil "body ~a is ~(~a~), and only dynamic bodies can be attached"
+                         (body-name child) (body-kind child))))
+    (first (world-attachment-list world))))
 
 (defun detach (attachment)
   "Free the child of ATTACHMENT; it is awake and keeps its velocity.  Detaching twice is harmless.
 Signals BULLET-ERROR if the world was closed before."
   (when (attachment-attached attachment)
     (let ((world (body-world (attachment-parent attachment))))
-      (invoke ('detach pointer world) (%detach pointer (attachment-id attachment)))
-      (setf (attachment-attached attachment) nil
-            (world-attachment-list world) (delete attachment (world-attachment-list world)))))
+      (invoke ('detach pointer world)
+          (prog1 (%detach pointer (attachment-id attachment))
+            (setf (attachment-attached attachment) nil
+                  (world-attachment-list world)
+                  (remove attachment (world-attachment-list world)))))))
   (values))
 
 (defun attachment-load (attachment)

@@ -47,17 +47,28 @@
           collect (number-of (format nil "a moment of inertia of ~a" owner)
                              moment 'add-body :positive))))
 
-(defun new-body-id (world name shape pose kind mass inertia friction rolling-friction restitution)
-  "Return the id of a new foreign body.  Only POSE and SHAPE are still to be checked."
+(defun register-body (body)
+  (let ((world (body-world body)))
+    (setf (gethash (body-name body) (world-body-names world)) body)
+    (vector-push-extend body (world-body-vector world))))
+
+(defun make-body (world name shape pose kind mass inertia friction rolling-friction restitution)
+  "Return a new body, registered in WORLD.  Only POSE, SHAPE and INERTIA are still to be checked."
   (let* ((owner (format nil "body ~a" name))
          (shape-id (make-shape world shape owner))
          (moments (if (eq kind :dynamic) (inertia-of inertia shape mass owner) '(0d0 0d0 0d0))))
     (destructuring-bind (ix iy iz) moments
       (with-pose-numbers (pose)
         (invoke ('add-body pointer world)
-            (%body-new pointer shape-id (ecase kind (:static 0) (:dynamic 1) (:kinematic 2))
-                       x y z qx qy qz qw mass ix iy iz friction rolling-friction restitution)
-          (:bad-number (bad-pose name)))))))
+            (let ((id (%body-new pointer shape-id
+                                 (ecase kind (:static 0) (:dynamic 1) (:kinematic 2))
+                                 x y z qx qy qz qw mass ix iy iz
+                                 friction rolling-friction restitution)))
+              (when (>= id 0)
+                (register-body (%make-body world id name shape kind mass)))
+              id)
+          (:bad-number (bad-pose name)))))
+    (find-body world name)))
 
 (defun add-body (world name shape pose
                  &key (mass 0d0) (kind (if (member mass '(0 0f0 0d0)) :static :dynamic)) inertia
@@ -85,11 +96,8 @@ no finite position with a unit quaternion, or a number out of its range."
               kind name))
       (when (and (not (eq kind :static)) (consp shape) (eq (first shape) :plane))
         (fail 'add-body "body ~a is ~(~a~), but only static bodies can be planes" name kind))
-      (let* ((id (new-body-id world name shape pose kind mass inertia
-                              friction rolling-friction restitution))
-             (body (%make-body world id name shape kind mass)))
-        (vector-push-extend body (world-body-vector world))
-        (setf (gethash name (world-body-names world)) body)))))
+      (make-body world name shape pose kind mass inertia friction rolling-friction
+                 restitution))))
 
 (defun body-state (body operation)
   "Return the thirteen numbers of the state of BODY in a new vector."

@@ -142,11 +142,6 @@ unit quaternion." (bullet:move-body link pose)))
                  (bullet:deepest-penetration ,world) (bullet:cast-ray ,world (0 0 1) (0 0 0)))
           do (signals bullet:bullet-error (apply function arguments)))))
 
-(defun bullet-megabytes ()
-  (with-open-file (stream "/proc/self/statm")
-    (read stream)
-    (/ (* 4 (read stream)) 1024)))
-
 (defun use-worlds (count)
   (loop repeat count
         do (bullet:with-world (world)
@@ -154,6 +149,26 @@ unit quaternion." (bullet:move-body link pose)))
                (bullet:attach floor (add-cube world :cube 0 0.05d0))
                (bullet:step-world world 3)))
         count t))
+
+(test interrupts-wait-for-the-end-of-a-call
+  (bullet:with-world (world)
+    (add-floor world)
+    (add-cube world :cube 0 1)
+    (signals sb-ext:timeout
+      (sb-ext:with-timeout 1/20
+        (bullet:step-world world 1000000000)))
+    (is (zerop (mod (round (* 240 (bullet:world-time world))) 1000)))
+    (is (plusp (bullet:world-time world)))
+    (dotimes (i 20)
+      (handler-case (sb-ext:with-timeout 1/1000
+                      (loop (bullet:read-state world (bullet:make-state-vector world))
+                            (bullet:step-world world)))
+        (sb-ext:timeout ())))
+    (let ((steps (round (* 240 (bullet:world-time world)))))
+      (bullet:with-world (other)
+        (add-floor other)
+        (add-cube other :cube 0 1)
+        (is (= (bullet:state-hash world) (bullet:state-hash (bullet:step-world other steps))))))))
 
 (test many-worlds
   (is (= 500 (use-worlds 500))))
@@ -171,8 +186,8 @@ unit quaternion." (bullet:move-body link pose)))
       (progn
         (use-worlds 1000)
         (sb-ext:gc :full t)
-        (let ((before (bullet-megabytes)))
+        (let ((before (resident-megabytes)))
           (use-worlds 20000)
           (sb-ext:gc :full t)
-          (is (< (- (bullet-megabytes) before) 20))))
+          (is (< (- (resident-megabytes) before) 20))))
       (skip "Only the long run tests this.")))

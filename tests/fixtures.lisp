@@ -36,3 +36,9 @@ of the strings PARTS."
 (defun two-regions ()
   "Return the domain of Example 1."
   (discrepancy:ensure-domain :two-regions))
+
+(defun resident-megabytes ()
+  "Return the megabytes of memory that this process has."
+  (with-open-file (stream "/proc/self/statm")
+    (read stream)
+    (/ (* 4096 (read stream)) 1d6)))

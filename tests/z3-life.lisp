@@ -59,11 +59,6 @@
                                (< (length z3::**open-contexts**) (+ before 10)))
               do (sleep 1/20)))))
 
-(defun resident-megabytes ()
-  (with-open-file (file "/proc/self/statm")
-    (read file)
-    (/ (* 4096 (read file)) 1d6)))
-
 (test solvers-leave-nothing-behind
   (if *long*
       (flet ((lives (count)
