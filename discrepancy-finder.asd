@@ -107,7 +107,7 @@ The environment variable CXX names another compiler than g++."))
   :description "Files of Lisp forms, read with care and with positions."
   :pathname "src/source/"
   :serial t
-  :components ((:file "package") (:file "conditions") (:file "destructuring")
+  :components ((:file "package") (:file "conditions") (:file "names") (:file "destructuring")
                (:file "read")))
 
 (asdf:defsystem "discrepancy-finder/event-calculus"
@@ -158,7 +158,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "random") (:file "quantile") (:file "least-squares") (:file "confidence")
                (:file "paper-rule") (:file "abstraction") (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
-               (:file "search") (:file "report") (:file "replay")
+               (:file "results") (:file "search") (:file "report") (:file "replay")
                (:file "replay-file")))
 
 (asdf:defsystem "discrepancy-finder/tests"

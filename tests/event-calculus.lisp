@@ -135,6 +135,12 @@
   (flet ((parse (&rest clauses) (ec::parse-theory 'lamp clauses)))
     (signals-with (ec:theory-error ":fluents" "no sort lamp") (parse '(:fluents (lit lamp))))
     (signals-with (ec:theory-error "twice") (parse '(:sorts (s a) (s b))))
+    (signals-with (ec:theory-error "(s a b a)" "stands twice") (parse '(:sorts (s a b a))))
+    (signals-with (ec:theory-error "digit") (parse '(:sorts (s1 a))))
+    (signals-with (ec:theory-error "cannot be a name") (parse '(:sorts (s nil))))
+    (signals-with (ec:theory-error "word of the language") (parse '(:fluents (and))))
+    (signals-with (ec:theory-error "(name ...)") (parse '(:sorts (s a . b))))
+    (signals-with (ec:theory-error ":sorts") (parse '(:sorts (s a) . 3)))
     (signals-with (ec:theory-error "flunts was found" ":sorts") (parse '(:flunts (lit))))
     (signals-with (ec:theory-error "axiom axiom-2" "no fluent")
       (parse '(:fluents (f)) '(:axioms (holds-at (f) ?time) (holds-at (g) ?time))))))
@@ -155,8 +161,13 @@
                   (prin1-to-string theory)))
       (is (eq theory (ec:find-theory 'lamp)))
       (is (= 1 (ec:state-constraint-span (ec:find-state-constraint nil theory))))
-      (signals-with (ec:state-constraint-not-found "lamp-out" "lamp-lit")
-        (ec:find-state-constraint 'lamp-out theory))))
+      (signals-with (ec:state-constraint-not-found
+                     "Theory lamp has no state constraint named lamp-out: lamp-lit.")
+        (ec:find-state-constraint 'lamp-out theory))
+      (ec:define-state-constraint second (lamp) (?time) (holds-at (dark) ?time))
+      (signals-with (ec:state-constraint-not-found
+                     "Theory lamp has several state constraints, so name one: lamp-lit, second.")
+        (ec:find-state-constraint nil theory))))
   (signals-with (ec:theory-not-found "no-such-theory") (ec:find-theory 'no-such-theory)))
 
 (test state-constraints

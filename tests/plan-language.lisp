@@ -95,7 +95,7 @@
 
 (test retry-outside-of-a-handler-is-an-error
   (signals plan:malformed-plan-form (plan:retry))
-  (signals-with (plan:malformed-plan-form "with-retry-counters")
+  (signals-with (plan:malformed-plan-form "nowhere" "with-retry-counters")
     (macroexpand-1 '(plan:do-retry nowhere (plan:retry))))
   (signals-with (plan:malformed-plan-form "list of clauses")
     (macroexpand-1 '(plan:with-failure-handling (plan:plan-failure) (plan:fail)))))
@@ -115,6 +115,11 @@
     (is (equal '(:first (:left :right)) (plan:desig-prop-values designator :via)))
     (is (eq :box (plan:desig-prop-value (plan:desig-prop-value designator :object) :type)))
     (is (null (plan:desig-prop-value designator :nothing)))
+    (let ((?arm nil))
+      (is (equal '(:type :speed)
+                 (mapcar #'first (plan:properties
+                                  (plan:a motion (type going) (when ?arm (arm ?arm))
+                                          (when (not ?arm) (speed 1))))))))
     (is (null (plan:desig-prop-value nil :type)))
     (is (string= "(an action (type grasping))"
                  (princ-to-string (plan:an action (type grasping)))))
@@ -166,7 +171,7 @@
 
 (test top-levels-are-not-nested
   (is (equal '(1 2) (multiple-value-list (plan:top-level (values 1 2)))))
-  (signals-with (error "top-level calls cannot be nested")
+  (signals-with (plan:nested-top-level "cannot be nested")
     (plan:top-level (plan:top-level 1))))
 
 (test unknown-plans-are-named

@@ -29,8 +29,16 @@
     (is (eq :robot (projection:scene-robot-name scene)))
     (is (= 0.8d0 (projection:scene-parameter scene :reach)))
     (is (= 0.5d0 (projection:scene-parameter (two-regions-scene :reach 0.5) :reach)))
+    (is (= 0.5d0 (projection:scene-parameter
+                  (projection:scene-with-parameters scene '(reach 0.5)) :reach))
+        "names of any package")
     (signals-with (projection:unknown-parameter "two-regions" "reech" "reach")
-      (two-regions-scene :reech 1))))
+      (two-regions-scene :reech 1))
+    (dolist (value '(0 -1 far nil))
+      (signals-with (projection:impossible-parameter "base-speed" "positive")
+        (two-regions-scene :base-speed value)))
+    (signals projection:impossible-parameter
+      (projection:scene-with-parameters scene '(:reach)))))
 
 (test a-settled-world-keeps-its-items-where-they-are
   (projection:with-projection (projection (two-regions-scene))
@@ -193,7 +201,13 @@
     (scene-problem-of (format nil "(define-scene s (:item box ~s (:at 0 0)))" box) "(:at x y z")
     (scene-problem-of (format nil "(define-scene s (:item box ~s (:at 0 0 1)) (:item box ~:*~s (:at ~
                                    1 0 1)))" box) "same name")
-    (scene-problem-of "(define-scene s (:parameters (reach far)))" "name number")
+    (scene-problem-of "(define-scene s (:parameters (reach far)))" "name positive-number")
     (scene-problem-of (format nil "(define-scene s (:robot r ~s (:at 0 0 0) (:lift \"a\") ~
                                    (:shoulder \"b\") (:extension \"c\") (:gripper \"d\")))" box)
-                      ":lift" "no such joint")))
+                      ":lift" "no such joint")
+    (scene-problem-of (format nil "(define-scene s (:robot r ~s (:at 0 0 0) (:lift \"arm_joint\") ~
+                                   (:shoulder \"lift_joint\") (:extension \"arm_joint\") ~
+                                   (:gripper \"gripper_link\")))"
+                              (root-file "models/two-regions/robot.urdf"))
+                      ":shoulder" "not revolute")
+    (scene-problem-of "(define-scene s (:parameters (reach 0)))" "positive")))

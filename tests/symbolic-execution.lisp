@@ -62,7 +62,16 @@
     (handler-case (error "~a" 1) (warning () 2) (error (e) (princ-to-string e)))
     (let ((log '())) (block nil (handler-bind ((error (lambda (e) (push (type-of e) log) (return log))))
       (handler-bind ((error (lambda (e) (declare (ignore e)) (push :inner log)))) (error "x")))))
+    (let ((*print-base* 16)) (princ-to-string 255))
+    (with-output-to-string (*standard-output*) (princ 1)) (let ((*special* 1)) (incf *special*))
+    (loop for x in '(1 2 3) for y = (* x x) when (oddp x) collect (list x y))
+    (with-simple-restart (abort "x") 5) (with-simple-restart (abort "x") (invoke-restart 'abort))
+    (macrolet ((outer (x) `(list ,x))) (macrolet ((inner (x) `(outer (1+ ,x)))) (inner 4)))
+    (flet ((f (x) (list :function x))) (macrolet ((f (x) `(list :macro ,x))) (f 1)))
+    (macrolet ((f (x) `(list :macro ,x))) (flet ((f (x) (list :function x))) (f 1)))
     (plan:with-failure-handling ((plan:plan-failure () (return 7))) (plan:fail))
+    (plan:with-failure-handling ((plan:plan-failure (e) (declare (ignore e)) (return 8))) (plan:fail))
+    (plan:with-retry-counters ((count 1)) (list (plan:do-retry count :one) (plan:do-retry count :two)))
     (plan:with-retry-counters ((c 2)) (let ((n 0)) (plan:with-failure-handling
       ((plan:plan-failure () (plan:do-retry c (plan:retry)) (return n))) (incf n) (plan:fail)))))
   "Programs whose values must be the same in the evaluator and compiled.")
@@ -199,6 +208,124 @@
                                    :constraint 'lamp-a-lit :arguments '((?flag boolean)))))
     (is (equal '((t) (nil))
                (mapcar #'symbolic:trace-arguments (symbolic:exploration-traces exploration))))))
+
+(test symbolic-values-do-not-hide-in-lists-functions-and-specials
+  "Each of these must branch on the flag although compiled code looks at it."
+  (dolist (form '("(find-if (lambda (x) (declare (ignore x)) ?flag) '(1 2))"
+                  "(flet ((all (&rest flags) (every #'identity flags))) (all ?flag t))"
+                  "(let ((discrepancy-finder.tests::*special* ?flag))
+                     (discrepancy-finder.tests::special-true-p))"
+                  "(progn (setq discrepancy-finder.tests::*special* ?flag)
+                          (discrepancy-finder.tests::special-true-p))"
+                  "(funcall (lambda (x) (if x 1 nil)) ?flag)"
+                  "(let ((x (list 1 ?flag))) (second x))"))
+    (let ((exploration (explore-text (format nil "
+(def-top-level-cram-function lamp-plan (?flag)
+  (if ~a
+      (perform (a motion (type toggling) (lamp a)))
+      (perform (a motion (type smashing) (lamp a)))))" form)
+                                     :constraint 'anything :arguments '((?flag boolean)))))
+      (is (equal '((:smash nil) (:smash t) (:toggle t))
+                 (sort (loop for trace in (symbolic:exploration-traces exploration)
+                             for step = (first (symbolic:trace-steps trace))
+                             collect (list (first (symbolic:step-event step))
+                                           (first (symbolic:trace-arguments trace))))
+                       #'string< :key #'princ-to-string))
+          "~a" form)
+      (is (eq :global *special*)))))
+
+(defun special-true-p ()
+  (and *special* (not (eq *special* :global))))
+
+(test what-is-wrong-with-a-domain-is-not-the-plans-to-handle
+  (signals symbolic:action-problem
+    (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (handler-case (perform (a motion (type singing)))
+    (error () nil)))" :constraint 'anything)))
+
+(test an-interrupted-path-stays-pending
+  (setf *runs* 0)
+  (make-lamp-domain)
+  (with-file (file "
+(def-top-level-cram-function lamp-plan ()
+  (when (= 1 (discrepancy-finder.tests::count-a-run)) (error \"once\"))
+  (perform (a motion (type smashing) (lamp a))))")
+    (plan:load-plan file)
+    (let ((exploration (symbolic:make-exploration 'discrepancy-finder-user::lamp-plan :lamps
+                                                  :constraint 'anything)))
+      (unwind-protect
+           (progn
+             (signals simple-error (symbolic:next-trace exploration))
+             (is (not (symbolic:exploration-complete-p exploration)))
+             (is-true (symbolic:next-trace exploration))
+             (is (null (symbolic:next-trace exploration)))
+             (is-true (symbolic:exploration-complete-p exploration)))
+        (symbolic:close-exploration exploration)))))
+
+(test a-replay-that-ends-early-is-reported
+  (setf *runs* 0)
+  (signals-with (symbolic:nondeterministic-plan "its end")
+    (explore-text "
+(def-top-level-cram-function lamp-plan (?flag)
+  (when (= 1 (discrepancy-finder.tests::count-a-run))
+    (when ?flag (perform (a motion (type toggling) (lamp a))))))"
+                  :constraint 'anything :arguments '((?flag boolean)))))
+
+(test cleanup-forms-of-compiled-code-perform-nothing-on-an-abandoned-path
+  (let ((exploration (explore-text "
+(defun smash-at-the-end (?lamp)
+  (unwind-protect (loop (perform (a motion (type toggling) (lamp ?lamp))))
+    (perform (a motion (type smashing) (lamp ?lamp)))))
+(def-top-level-cram-function lamp-plan ()
+  (smash-at-the-end :a))" :constraint 'anything :max-steps 2)))
+    (is (notany (lambda (trace)
+                  (find '(:smash :a) (symbolic:trace-steps trace)
+                        :key #'symbolic:step-event :test #'equal))
+                (remove-if (lambda (trace)
+                             (member 'plan:gripper-goal-not-reached
+                                     (mapcar #'symbolic:step-outcome
+                                             (symbolic:trace-steps trace))))
+                           (symbolic:exploration-traces exploration))))))
+
+(test a-plan-may-return-from-itself
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (perform (a motion (type smashing) (lamp a)))
+  (return-from lamp-plan)
+  (perform (a motion (type smashing) (lamp b))))" :constraint 'anything)))
+    (is (equal '((:success)) (step-outcomes exploration)))))
+
+(test paths-come-depth-first
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan (?one ?two)
+  (if ?one 1 2)
+  (if ?two 1 2)
+  (perform (a motion (type smashing) (lamp a))))"
+                                   :constraint 'anything
+                                   :arguments '((?one boolean) (?two boolean)))))
+    (is (equal '((t t) (t nil) (nil t) (nil nil))
+               (mapcar #'symbolic:trace-arguments (symbolic:exploration-traces exploration))))))
+
+(test action-bindings-are-checked-when-they-are-defined
+  (make-lamp-domain)
+  (flet ((define (&rest clauses)
+           (eval `(symbolic:define-action (motion testing) (lamp) (:domain lamps) ,@clauses))))
+    (signals-with (symbolic:action-problem "motion testing" "no event polish")
+      (define '(:event (polish lamp))))
+    (signals-with (symbolic:action-problem "toggle takes 1 argument, not 2")
+      (define '(:event (toggle lamp lamp))))
+    (signals-with (symbolic:action-problem "no-such-class is no plan failure")
+      (define '(:event (toggle lamp)) '(:failure no-such-class)))
+    (signals symbolic:action-problem
+      (define '(:event (toggle lamp)) '(:failure plan:plan-failure :event (polish lamp)))))
+  (flet ((expand (&rest clauses)
+           (macroexpand-1 `(symbolic:define-action (motion testing) () ,@clauses))))
+    (signals-with (plan:malformed-plan-form ":domain") (expand '(:event (toggle a))))
+    (signals-with (plan:malformed-plan-form "one of :domain") (expand '(:effect (toggle a))))
+    (signals-with (plan:malformed-plan-form "one of :domain") (expand 'event))
+    (signals-with (plan:malformed-plan-form "one thing after :event")
+      (expand '(:domain lamps) '(:event (toggle a) (toggle b))))))
 
 (defvar *counter* 0
   "A global that plans of the tests write to.")

@@ -62,7 +62,7 @@ axis.  REGIONS are the candidates, one for each element of the fluent's sort."
 
 (defun domain-with-parameters (domain parameters)
   "Return DOMAIN with the scene parameters in PARAMETERS, a property list of names and reals,
-changed.  Signals UNKNOWN-PARAMETER."
+changed.  Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
   (if parameters
       (make-instance 'domain
                      :name (symbolic:action-theory-name domain)

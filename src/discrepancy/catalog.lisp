@@ -9,14 +9,20 @@
 (defvar *data-directories* '()
   "The directories, after the current one, that hold plans/ and models/.")
 
+(defun use-data-directories (directories)
+  "Look for plans/ and models/ in the list DIRECTORIES, after the current directory."
+  (setf *data-directories* directories))
+
 (defun locate-file (file)
   "Return FILE, a relative or absolute file name, if it exists, or the first file of this name under
 the data directories; NIL if there is none."
-  (if (uiop:file-exists-p file)
-      (namestring file)
-      (loop for directory in *data-directories*
-            for candidate = (merge-pathnames file directory)
-            when (uiop:file-exists-p candidate) return (namestring candidate))))
+  ;; A name is taken by its characters: one with a bracket in it is no pattern.
+  (let ((path (if (pathnamep file) file (uiop:parse-native-namestring file))))
+    (if (uiop:file-exists-p path)
+        (uiop:native-namestring path)
+        (loop for directory in *data-directories*
+              for candidate = (merge-pathnames path directory)
+              when (uiop:file-exists-p candidate) return (uiop:native-namestring candidate)))))
 
 (defun file-name (name)
   (string-downcase (symbol-name name)))
@@ -24,7 +30,7 @@ the data directories; NIL if there is none."
 (defun ensure-plan (name &optional file)
   "Return the plan named by the symbol NAME.  If there is none, load FILE, or plans/NAME.lisp where
 FILE is NIL.  Signals PLAN-NOT-FOUND and SOURCE-ERROR."
-  (or (plan:plan-source name)
+  (or (handler-case (plan:find-plan name) (plan:plan-not-found () nil))
       (let ((located (locate-file (or file (format nil "plans/~a.lisp" (file-name name))))))
         (when located (plan:load-plan located))
         (plan:find-plan name))))
@@ -34,6 +40,9 @@ FILE is NIL.  Signals PLAN-NOT-FOUND and SOURCE-ERROR."
 load FILE, or models/NAME/domain.lisp where FILE is NIL.  Signals DOMAIN-NOT-FOUND, SOURCE-ERROR and
 what DEFINE-ABSTRACTION signals."
   (cond ((typep domain 'domain) domain)
+        ((or (null domain) (not (symbolp domain)))
+         (error 'invalid-argument :name 'domain :value domain
+                                  :expected "a domain or the name of one"))
         ((find (ec:name-keyword domain) (symbolic:all-action-theories)
                :key #'symbolic:action-theory-name))
         (t (let ((located (locate-file (or file (format nil "models/~a/domain.lisp"

@@ -86,6 +86,7 @@
                                           (abstraction-problem
                                            name clause "there is no (:region ~a ...)"
                                            (ec:name-text element))))))
+        (check-disjoint name candidates)
         (make-placement :fluent fluent :body (ec:name-keyword body) :regions candidates
                         :coordinates (loop for entry in coordinates
                                            collect (parse-coordinate name clause entry
@@ -130,7 +131,6 @@
              (scene (projection:load-scene
                      (relative-file (second (first (clauses :scene))) file)))
              (regions (mapcar (lambda (clause) (parse-region name clause)) (clauses :region))))
-        (check-disjoint name regions)
         (make-instance
          'domain
          :name (ec:name-keyword name) :documentation documentation :theory theory :scene scene

@@ -12,18 +12,15 @@
   "The depth (m) to which bodies may penetrate each other in a valid sample.")
 
 (defstruct (run-step (:copier nil))
-  "A performed designator: OUTCOME is :SUCCESS or a failure class, ALLOWED the outcome of the action
-binding that it is (NIL if the binding has no such outcome), STATE what was observed afterwards."
+  "A performed designator: OUTCOME is :SUCCESS or a failure class, CANDIDATES the outcomes of the
+action binding that it can be (none if the binding has no such outcome), FAILURE the failure in
+words, STATE what was observed afterwards."
   (designator nil :read-only t)
   (outcome :success :type symbol :read-only t)
-  (allowed nil :read-only t)
+  (candidates '() :type list :read-only t)
   (failure nil :type (or null string) :read-only t)
   (position nil :read-only t)
   (state '() :type list :read-only t))
-
-(defun run-step-event (step)
-  "Return the event (a list of keywords) that happened in STEP, or NIL."
-  (and (run-step-allowed step) (symbolic:outcome-event (run-step-allowed step))))
 
 (defmethod print-object ((step run-step) stream)
   (print-unreadable-object (step stream :type t)
@@ -31,7 +28,7 @@ binding that it is (NIL if the binding has no such outcome), STATE what was obse
 
 (defstruct (run (:copier nil))
   "A concrete execution.  VALIDITY is :VALID or a sentence that says why the sample is not; ENDING
-is :TRACE-DONE, :LEFT-TRACE, :FINISHED or the class of an unhandled failure."
+is :TRACE-DONE, :LEFT-TRACE, :FINISHED, :TOO-MANY-STEPS or the class of an unhandled failure."
   (sample nil :read-only t)
   (validity :valid :read-only t)
   (ending nil :read-only t)
@@ -49,37 +46,54 @@ is :TRACE-DONE, :LEFT-TRACE, :FINISHED or the class of an unhandled failure."
             (run-ending run) (run-seconds run)
             (mapcar #'ec:atom-text (observed-fluents (run-final-state run))))))
 
+(defparameter *step-limit* 1000
+  "A run is ended after so many performed designators.")
+
 (defclass monitor ()
   ((domain :initarg :domain :reader monitor-domain)
    (projection :initarg :projection :reader monitor-projection)
    (expected :initarg :expected :accessor monitor-expected
              :documentation "The steps of the trace that are still to come, or :NONE.")
+   (handlers :initform (plan:current-handlers) :reader monitor-handlers
+             :documentation "The condition handlers from outside the plan.")
+   (ending :initform nil :accessor monitor-ending
+           :documentation "Why the run is being left, or NIL.")
    (steps :initform '() :accessor monitor-steps :documentation "Newest first."))
   (:documentation "The executive of a recorded run."))
 
-(defun find-outcome (outcomes failure)
-  "Return the one of OUTCOMES that FAILURE, a condition or NIL for success, is; or NIL."
-  (find-if (lambda (outcome)
-             (let ((name (symbolic:outcome-name outcome)))
-               (if failure
-                   (and (not (eq name :success)) (typep failure name))
-                   (eq name :success))))
-           outcomes))
+(defun leave-run (monitor ending)
+  "Leave the run of MONITOR.  If it is being left already, which the plan's cleanup forms may not
+notice, that goes on."
+  (unless (monitor-ending monitor)
+    (setf (monitor-ending monitor) ending))
+  (throw monitor (monitor-ending monitor)))
+
+(defun fitting-outcomes (outcomes failure)
+  "Return those of OUTCOMES that FAILURE, a condition or NIL for success, can be."
+  (remove-if-not (lambda (outcome)
+                   (let ((name (symbolic:outcome-name outcome)))
+                     (if failure
+                         (and (not (eq name :success)) (typep failure name))
+                         (eq name :success))))
+                 outcomes))
 
 (defun same-step-p (step expected)
-  (and (equal (run-step-event step) (symbolic:step-event expected))
-       (run-step-allowed step)
-       (eq (symbolic:outcome-name (run-step-allowed step)) (symbolic:step-outcome expected))))
+  (some (lambda (outcome)
+          (and (equal (symbolic:outcome-event outcome) (symbolic:step-event expected))
+               (eq (symbolic:outcome-name outcome) (symbolic:step-outcome expected))))
+        (run-step-candidates step)))
 
 (defun note-step (monitor step)
-  "Record STEP and leave the run by a throw if there is nothing more to compare with."
+  "Record STEP and leave the run if there is nothing more to compare with."
   (push step (monitor-steps monitor))
   (unless (eq (monitor-expected monitor) :none)
     (let ((expected (pop (monitor-expected monitor))))
-      (cond ((not (same-step-p step expected)) (throw monitor :left-trace))
-            ((null (monitor-expected monitor)) (throw monitor :trace-done))))))
+      (cond ((not (same-step-p step expected)) (leave-run monitor :left-trace))
+            ((null (monitor-expected monitor)) (leave-run monitor :trace-done))))))
 
-(defmethod plan:perform-with ((monitor monitor) designator position)
+(defun perform-recorded (monitor designator position)
+  "Let the projection of MONITOR perform DESIGNATOR and record the step.  Return the failure or NIL,
+and the result."
   (let ((outcomes (symbolic:action-outcomes (monitor-domain monitor) designator))
         (failure nil)
         (result nil))
@@ -88,10 +102,20 @@ is :TRACE-DONE, :LEFT-TRACE, :FINISHED or the class of an unhandled failure."
     (note-step monitor
                (make-run-step :designator designator :position position
                               :outcome (if failure (type-of failure) :success)
-                              :allowed (find-outcome outcomes failure)
+                              :candidates (fitting-outcomes outcomes failure)
                               :failure (and failure (source:condition-sentence failure))
                               :state (discrete-state (monitor-domain monitor)
                                                      (monitor-projection monitor))))
+    (values failure result)))
+
+(defmethod plan:perform-with ((monitor monitor) designator position)
+  (when (monitor-ending monitor)
+    (leave-run monitor (monitor-ending monitor)))
+  (when (>= (length (monitor-steps monitor)) *step-limit*)
+    (leave-run monitor :too-many-steps))
+  (multiple-value-bind (failure result)
+      (plan:with-handlers ((monitor-handlers monitor))
+        (perform-recorded monitor designator position))
     (if failure
         (plan:fail failure)
         result)))
@@ -119,16 +143,21 @@ a sentence that says why not."
           '(simple-array double-float (*))))
 
 (defun run-monitored (monitor plan arguments)
-  "Run the function of PLAN (a symbol) under MONITOR and return how it ended."
-  (catch monitor
-    (plan:with-executive (monitor)
-      (handler-case (progn (apply plan arguments) :finished)
-        (plan:plan-failure (failure) (type-of failure))))))
+  "Run the function of PLAN (a symbol) under MONITOR and return how it ended.  Random numbers are the
+same in every run, and the same as in symbolic execution."
+  (let ((*random-state* (sb-ext:seed-random-state 0))
+        (*gensym-counter* 0))
+    (catch monitor
+      (plan:with-executive (monitor)
+        (handler-case (progn (apply plan arguments) :finished)
+          (plan:plan-failure (failure) (type-of failure)))))))
 
-(defun execute-sample (domain plan sample &key trace (execution :trace) arguments)
+(defun execute-sample (domain plan sample &key trace (execution :trace) arguments
+                                            (output (make-broadcast-stream)))
   "Run PLAN (a symbol) with ARGUMENTS in a new world of DOMAIN that begins with SAMPLE, and return
 the RUN.  With a TRACE the sample must map to its initial state, else the run is invalid and has no
-steps; EXECUTION is :TRACE or :PLAN.  The same arguments give the same bits."
+steps; EXECUTION is :TRACE or :PLAN.  What the plan prints goes to OUTPUT.  The same arguments give
+the same bits, provided that the plan does not read global variables that it writes."
   (projection:with-projection (projection (domain-scene domain)
                                           :poses (sample-poses domain sample))
     (let* ((settled (projection:settle projection))
@@ -151,7 +180,8 @@ steps; EXECUTION is :TRACE or :PLAN.  The same arguments give the same bits."
                                            :expected (if (and trace (eq execution :trace))
                                                          (symbolic:trace-steps trace)
                                                          :none)))
-                   (ending (run-monitored monitor plan arguments)))
+                   (ending (let ((*standard-output* output))
+                             (run-monitored monitor plan arguments))))
               (result ending (reverse (monitor-steps monitor))))
             (result :not-run '()))))))
 
@@ -175,5 +205,18 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, UNKNOWN-BODY, UNKNOWN-PARAMETER, INVALID-ARGUM
                               collect (make-parameter (ec:name-keyword body) axis
                                                       (decimal-double value)
                                                       (decimal-double value))))))
+    (check-plan-arguments plan arguments)
     (execute-sample domain plan (make-sample 0 coordinates (coerce (nreverse values) 'vector))
-                    :arguments arguments)))
+                    :arguments arguments :output *standard-output*)))
+
+(defun check-plan-arguments (plan arguments)
+  "Signal INVALID-ARGUMENT unless PLAN (a symbol) can be called with the list ARGUMENTS."
+  (multiple-value-bind (required optional rest keywords)
+      (alexandria:parse-ordinary-lambda-list (plan:plan-lambda-list (plan:find-plan plan)))
+    (unless (and (listp arguments) (<= (length required) (length arguments))
+                 (or rest keywords
+                     (<= (length arguments) (+ (length required) (length optional)))))
+      (error 'invalid-argument :name 'arguments :value arguments
+                               :expected (format nil "a list for the lambda list ~(~s~)"
+                                                 (plan:plan-lambda-list
+                                                  (plan:find-plan plan)))))))

@@ -57,54 +57,67 @@ the Z3 CONTEXT."
       ((nil) nil)
       (t (eq (z3:check solver (list proposition)) :sat)))))
 
-(defun differing-fluents (solver state observed)
-  "Return the list of (atom theory-value simulation-value) for the fluents that cannot have the
-truth value OBSERVED in STATE."
+(defun differing-fluents (solver state condition observed)
+  "Return the list of (atom theory-value simulation-value) for the fluents that, given CONDITION,
+cannot have the truth value OBSERVED in STATE."
   (loop for (atom . truth) in observed
         for proposition = (ec:fluent-value state atom)
-        unless (consistent-p solver (list (if truth proposition (z3:negation proposition))))
+        unless (consistent-p solver (list condition
+                                          (if truth proposition (z3:negation proposition))))
           collect (list atom (not truth) truth)))
 
-(defun expected-state (domain solver state designator)
-  "Return the state after the first outcome of DESIGNATOR that DOMAIN's theory allows in STATE, or
-STATE if it allows none."
-  (dolist (outcome (symbolic:action-outcomes domain designator) state)
-    (multiple-value-bind (next conditions) (symbolic:outcome-transition domain state outcome)
-      (when (consistent-p solver (mapcar #'cdr conditions))
-        (return next)))))
+;;; A CANDIDATE is (state . condition): what may be the case after the steps so far, since a seen
+;;; outcome can be one of several that the action binding lists.
+
+(defun next-candidates (domain solver candidates outcomes)
+  "Return the candidates after one of OUTCOMES, those that the theory allows."
+  (loop for (state . condition) in candidates
+        append (loop for outcome in outcomes
+                     for (next conditions) = (multiple-value-list
+                                              (symbolic:outcome-transition domain state outcome))
+                     for next-condition = (z3:conjunction (cons condition
+                                                                (mapcar #'cdr conditions)))
+                     when (consistent-p solver (list next-condition))
+                       collect (cons next next-condition))))
+
+(defun observed-candidate (solver candidates observed)
+  "Return the first of CANDIDATES whose state can be the one OBSERVED, or NIL."
+  (find-if (lambda (candidate)
+             (consistent-p solver (cons (cdr candidate) (observation (car candidate) observed))))
+           candidates))
+
+(defun divergence-at (solver number kind candidates step)
+  "Return the divergence at step NUMBER: the fluents in which the first of CANDIDATES differs from
+what was observed after STEP."
+  (destructuring-bind (state . condition) (first candidates)
+    (make-divergence :step number :kind kind
+                     :fluents (differing-fluents solver state condition (run-step-state step)))))
 
 (defun judge-steps (domain solver state steps)
   "Return whether the theory allows the outcomes of STEPS and the state after the last of them, and
 the first divergence or NIL."
-  (let ((divergence nil)
+  (let ((candidates (list (cons state t)))
+        (divergence nil)
         (consistent t))
     (loop for step in steps
           for number from 0
-          for outcome = (run-step-allowed step)
-          do (multiple-value-bind (next conditions)
-                 (if outcome
-                     (symbolic:outcome-transition domain state outcome)
-                     (values state '((nil . nil))))
-               (unless (consistent-p solver (mapcar #'cdr conditions))
-                 (return-from judge-steps
-                   (values nil
-                           (or divergence
-                               (make-divergence
-                                :step number :kind :outcome
-                                :fluents (differing-fluents
-                                          solver
-                                          (expected-state domain solver state
-                                                          (run-step-designator step))
-                                          (run-step-state step)))))))
-               (loop for (nil . proposition) in conditions
-                     do (z3:solver-assert solver proposition))
-               (setf consistent (consistent-p solver (observation next (run-step-state step))))
-               (unless (or consistent divergence)
-                 (setf divergence
-                       (make-divergence :step number :kind :state
-                                        :fluents (differing-fluents solver next
-                                                                    (run-step-state step)))))
-               (setf state next)))
+          for next = (next-candidates domain solver candidates (run-step-candidates step))
+          do (when (null next)
+               (return-from judge-steps
+                 (values nil
+                         (or divergence
+                             ;; What the theory would have had instead, if it allows anything.
+                             (divergence-at solver number :outcome
+                                            (or (next-candidates
+                                                 domain solver candidates
+                                                 (symbolic:action-outcomes
+                                                  domain (run-step-designator step)))
+                                                candidates)
+                                            step)))))
+             (setf candidates next
+                   consistent (and (observed-candidate solver candidates (run-step-state step)) t))
+             (unless (or consistent divergence)
+               (setf divergence (divergence-at solver number :state candidates step))))
     (values consistent divergence)))
 
 (defun followed-p (run trace)

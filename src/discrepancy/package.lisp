@@ -37,7 +37,7 @@ search, replay.")
    ;; runs and their judgement
    #:execute-sample #:run-plan #:run #:run-steps #:run-initial-state #:run-final-state #:run-hash
    #:run-seconds #:run-validity #:run-final-values #:run-ending
-   #:run-step #:run-step-designator #:run-step-outcome #:run-step-event #:run-step-state
+   #:run-step #:run-step-designator #:run-step-outcome #:run-step-state
    #:run-step-failure #:run-text
    #:judge-run #:judgement #:judgement-verdict #:judgement-divergence
    #:divergence #:divergence-step #:divergence-fluents #:divergence-kind
@@ -51,9 +51,9 @@ search, replay.")
    #:discrepancy-judgement #:discrepancy-seed #:discrepancy-file #:discrepancy-text
    #:discrepancy-parameters #:discrepancy-confirmed-p
    ;; plans and domains by name
-   #:ensure-plan #:ensure-domain #:locate-file
+   #:ensure-plan #:ensure-domain #:locate-file #:use-data-directories
    ;; replay
-   #:save-discrepancy #:replay #:replay-result #:replay-status
+   #:save-discrepancy #:replay #:replay-result #:replay-status #:replay-verdict
    #:replay-discrepancy #:replay-text
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error

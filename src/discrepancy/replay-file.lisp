@@ -3,11 +3,13 @@
 
 (in-package #:discrepancy-finder.discrepancy)
 
-(defvar *replay-file* ""
-  "The file that is being read, for error reports.")
+(define-condition replay-fault (error)
+  ((reason :initarg :reason :reader replay-fault-reason))
+  (:documentation "Signaled within a file; READ-REPLAY-FILE, which knows its name, makes it
+REPLAY-ERROR."))
 
 (defun replay-problem (control &rest arguments)
-  (error 'replay-error :file *replay-file* :reason (apply #'format nil control arguments)))
+  (error 'replay-fault :reason (apply #'format nil control arguments)))
 
 (defun value-of (object key type)
   "Return the value of KEY in the JSON OBJECT; TYPE is a Lisp type that it must have."
@@ -30,12 +32,16 @@
     (:false nil)
     (t (replay-problem "~a was found where true or false was expected" value))))
 
-(defun atom-of (text candidates kind)
-  (or (and (stringp text) (text-atom-among text candidates))
-      (replay-problem "~s is no ~a of the theory" text kind)))
+(defun double-of (object key)
+  "Return the number that KEY has in OBJECT as a double float."
+  (let ((value (value-of object key 'real)))
+    (if (typep value '(or double-float (integer -1000000000 1000000000)))
+        (float value 1d0)
+        (replay-problem "the number of ~s is too large" key))))
 
-(defun text-atom-among (text candidates)
-  (ec:text-atom text (coerce candidates 'list)))
+(defun atom-of (text candidates kind)
+  (or (and (stringp text) (ec:text-atom text candidates))
+      (replay-problem "~s is no ~a of the theory" text kind)))
 
 (defun failure-classes (&optional (class (find-class 'plan:plan-failure)))
   (cons (class-name class)
@@ -82,9 +88,10 @@
   (loop for (name . value) in object
         for known = (find name (projection:scene-parameters scene)
                           :key (lambda (entry) (ec:name-text (first entry))) :test #'string=)
-        do (unless (and known (realp value))
-             (replay-problem "~s: ~a is no parameter of the scene with a number" "parameters" name))
-        append (list (first known) (float value 1d0))))
+        do (unless (and known (typep value '(double-float (0d0))))
+             (replay-problem "~s: ~a is no parameter of the scene with a positive number"
+                             "parameters" name))
+        append (list (first known) value)))
 
 (defun read-step (object domain)
   (let ((event (value-of object "event" '(or string (eql :null)))))
@@ -94,6 +101,32 @@
                  (atom-of event (ec:ground-theory-events (symbolic:action-theory-ground domain))
                           "event"))
      :outcome (outcome-of (value-of object "outcome" 'string)))))
+
+(defun check-allowed (conditions what)
+  "Refuse the file if the theory does not allow WHAT: if one of CONDITIONS, a list of
+(axiom . proposition), is false."
+  (unless (every #'cdr conditions)
+    (replay-problem "the theory as it is now does not allow ~a" what)))
+
+(defun read-states (initial-state steps)
+  "Return the states of the theory from INITIAL-STATE along STEPS, all of which it must allow."
+  (check-allowed (ec:initial-conditions initial-state) "the trace's initial state")
+  (let ((states (list initial-state)))
+    (loop for step in steps
+          for number from 1
+          do (multiple-value-bind (next conditions)
+                 (ec:progress (first states)
+                              (ec:event-number (ec:state-ground initial-state)
+                                               (symbolic:step-event step)))
+               (check-allowed conditions (format nil "step ~d of the trace" number))
+               (push next states)))
+    (nreverse states)))
+
+(defun read-arguments (object plan)
+  (let ((arguments (map 'list #'boolean-of (value-of object "arguments" 'simple-vector))))
+    (handler-case (check-plan-arguments (plan:plan-name plan) arguments)
+      (invalid-argument () (replay-problem "~s do not fit the plan" "arguments")))
+    arguments))
 
 (defun read-trace (object plan domain)
   (let* ((ground (symbolic:action-theory-ground domain))
@@ -105,11 +138,18 @@
     (unless steps
       (replay-problem "the trace has no steps"))
     (symbolic:make-execution-trace
-     :plan (plan:plan-name plan) :steps steps
-     :arguments (map 'list #'boolean-of (value-of object "arguments" 'simple-vector))
-     :states (symbolic:states-along
-              (ec:concrete-state ground (lambda (atom) (and (member atom true :test #'equal) t)))
-              steps))))
+     :plan (plan:plan-name plan) :steps steps :arguments (read-arguments object plan)
+     :states (read-states (ec:concrete-state
+                           ground (lambda (atom) (and (member atom true :test #'equal) t)))
+                          steps))))
+
+(defun parameter-value (values parameter)
+  "Return the value of PARAMETER in the JSON object VALUES, which must be within its bounds."
+  (let ((value (double-of values (parameter-name parameter))))
+    (unless (<= (parameter-min parameter) value (parameter-max parameter))
+      (replay-problem "~a is ~a, which is not between ~a and ~a" (parameter-name parameter) value
+                      (parameter-min parameter) (parameter-max parameter)))
+    value))
 
 (defun read-sample (object parameters)
   (let ((values (value-of object "values" 'list)))
@@ -118,8 +158,7 @@
                       (length values) (length parameters)))
     (make-sample (value-of object "index" '(integer 0)) parameters
                  (coerce (loop for parameter in parameters
-                               collect (float (value-of values (parameter-name parameter) 'real)
-                                              1d0))
+                               collect (parameter-value values parameter))
                          '(simple-array double-float (*))))))
 
 (defun read-constraint (text domain)
@@ -137,7 +176,7 @@
     (unless (and (= (length hash) 16) (every (lambda (c) (digit-char-p c 16)) hash))
       (replay-problem "~s is no state hash" hash))
     (list (parse-integer hash :radix 16)
-          (keyword-of object "verdict" '(:discrepancy :left-trace :consistent)))))
+          (keyword-of object "verdict" '(:discrepancy)))))
 
 (defun changed-files (object)
   "Return the names of the files whose text has changed since the discrepancy was stored."
@@ -159,15 +198,24 @@
           :execution (keyword-of object "execution" '(:trace :plan))
           :compare (keyword-of object "compare" '(:final :every-step))
           :seed (value-of object "seed" '(unsigned-byte 64))
-          :sample (read-sample (value-of object "sample" 'list) (initial-parameters domain trace))
+          :sample (read-sample (value-of object "sample" 'list)
+                               (handler-case (initial-parameters domain trace)
+                                 (sampling-error (condition)
+                                   (replay-problem "~a" (sampling-error-reason condition)))))
           :recorded (read-recorded-run (value-of object "run" 'list))
           :changed-files (changed-files object))))
 
 (defun read-replay-file (file)
   "Return the property list that PARSE-REPLAY makes of FILE.  Signals REPLAY-ERROR."
-  (let ((*replay-file* (namestring file)))
-    (unless (uiop:file-exists-p file)
-      (replay-problem "no such file"))
-    (handler-case (parse-replay (json:parse (uiop:read-file-string file :external-format :utf-8)))
-      (json:json-error (condition) (replay-problem "~a" (source:condition-sentence condition)))
-      (stream-error () (replay-problem "it is not a UTF-8 text")))))
+  (handler-case
+      (progn
+        (unless (uiop:file-exists-p file)
+          (replay-problem "no such file"))
+        (parse-replay (json:parse (uiop:read-file-string file :external-format :utf-8))))
+    (replay-fault (fault)
+      (error 'replay-error :file (namestring file) :reason (replay-fault-reason fault)))
+    (json:json-error (condition)
+      (error 'replay-error :file (namestring file)
+                           :reason (source:condition-sentence condition)))
+    (stream-error ()
+      (error 'replay-error :file (namestring file) :reason "it is not a UTF-8 text"))))

@@ -123,13 +123,21 @@ discrepancies/, under a name made of plan, seed and state hash."
   (recorded-hash 0 :type (unsigned-byte 64) :read-only t)
   (changed-files '() :type list :read-only t))
 
+(defun replay-verdict (result)
+  "Return the verdict on the replayed run: :DISCREPANCY, :CONSISTENT, :LEFT-TRACE, or :INVALID if
+the initial state is not one of the trace any more."
+  (if (eq (run-validity (replay-run result)) :valid)
+      (judgement-verdict (replay-judgement result))
+      :invalid))
+
 (defmethod print-object ((result replay-result) stream)
   (print-unreadable-object (result stream :type t)
     (format stream "~(~a~)" (replay-status result))))
 
 (defun replay (file)
-  "Run the discrepancy stored in FILE again and return a REPLAY-RESULT.  Plan and domain are loaded
-from the files that it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
+  "Run the discrepancy stored in FILE again and return a REPLAY-RESULT.  Reading FILE evaluates
+nothing; but the plan and the domain that it names, which are code, are loaded from the files that it
+names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
   (destructuring-bind (&key plan domain parameters trace constraint execution compare (seed 0)
                          sample recorded changed-files)
       (read-replay-file file)

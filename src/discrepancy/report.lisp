@@ -71,10 +71,13 @@ and simulation part, both final states, and how COMMAND replays it."
     (describe-trace (discrepancy-trace discrepancy) stream)
     (describe-sample (discrepancy-domain discrepancy) (discrepancy-sample discrepancy) stream)
     (describe-divergence discrepancy stream)
-    (format stream "  final state~%    theory:     ~a~%    simulation: ~a~%"
+    (format stream "  final state~%    theory:     ~a~%    simulation: ~a~@[ (stopped after step ~
+                    ~d)~]~%"
             (state-text (ec:state-fluents
                          (symbolic:trace-final-state (discrepancy-trace discrepancy))))
-            (state-text (observed-fluents (run-final-state (discrepancy-run discrepancy)))))
+            (state-text (observed-fluents (run-final-state (discrepancy-run discrepancy))))
+            (and (eq (run-ending (discrepancy-run discrepancy)) :left-trace)
+                 (length (run-steps (discrepancy-run discrepancy)))))
     (format stream "  run twice: ~:[different bits, so the simulation is not deterministic~;~
                     the same bits~], state hash ~a~%"
             (discrepancy-confirmed-p discrepancy)

@@ -8,54 +8,7 @@
 (in-package #:discrepancy-finder.discrepancy)
 
 (defparameter *rejection-limit* 200
-  "So many rejected samples, without any valid one, mean that the trace cannot be sampled.")
-
-(defstruct (discrepancy (:copier nil))
-  "A sample from which the simulation does what the theory does not allow."
-  (plan nil :read-only t)
-  (domain nil :read-only t)
-  (constraint nil :read-only t)
-  (parameters '() :type list :read-only t)
-  (execution :trace :type keyword :read-only t)
-  (compare :final :type keyword :read-only t)
-  (seed 0 :type (unsigned-byte 64) :read-only t)
-  (trace nil :read-only t)
-  (sample nil :read-only t)
-  (run nil :read-only t)
-  (judgement nil :read-only t)
-  (confirmed-p nil :type boolean :read-only t)
-  (file nil :type (or null string)))
-
-(defun discrepancy-summary (discrepancy)
-  "Return where theory and simulation part in DISCREPANCY, as a clause."
-  (let* ((divergence (judgement-divergence (discrepancy-judgement discrepancy)))
-         (step (nth (divergence-step divergence) (run-steps (discrepancy-run discrepancy)))))
-    (format nil "step ~d, ~a~:{; ~a is ~:[false~;true~] in the theory, ~:[false~;true~] in the ~
-                 simulation~}"
-            (1+ (divergence-step divergence)) (run-step-designator step)
-            (loop for (atom . values) in (divergence-fluents divergence)
-                  collect (cons (ec:atom-text atom) values)))))
-
-(defmethod print-object ((discrepancy discrepancy) stream)
-  (print-unreadable-object (discrepancy stream :type t)
-    (format stream "~(~a~): ~a" (plan:plan-name (discrepancy-plan discrepancy))
-            (discrepancy-summary discrepancy))))
-
-(defstruct (trace-result (:copier nil))
-  "What sampling a trace came to: STATUS is :CERTIFIED, :DISCREPANCY, :UNDECIDED or :SKIPPED."
-  (trace nil :read-only t)
-  (status :undecided :type (member :certified :discrepancy :undecided :skipped) :read-only t)
-  (reason "" :type string :read-only t)
-  (verdict nil :read-only t)
-  (samples 0 :type (integer 0) :read-only t)
-  (rejected 0 :type (integer 0) :read-only t)
-  (left-trace 0 :type (integer 0) :read-only t)
-  (discrepancies '() :type list :read-only t))
-
-(defmethod print-object ((result trace-result) stream)
-  (print-unreadable-object (result stream :type t)
-    (format stream "~(~a~) after ~d sample~:p" (trace-result-status result)
-            (trace-result-samples result))))
+  "So many rejected samples in a row mean that the trace cannot be sampled.")
 
 (defclass search-state ()
   ((plan :initarg :plan :reader search-plan)
@@ -113,129 +66,118 @@
 (defun within-budget-p (search)
   (< (search-simulations search) (search-budget search)))
 
+;;; One trace
+
+(defstruct (trace-search (:copier nil))
+  "The sampling of a trace in progress.  SAMPLES and DISCREPANCIES are newest first; IN-A-ROW counts
+the rejected samples since the last valid one."
+  (search nil :read-only t)
+  (trace nil :read-only t)
+  (parameters '() :type list :read-only t)
+  (content 0 :type (unsigned-byte 64) :read-only t)
+  (region nil :read-only t)
+  (samples '() :type list)
+  (rejected 0 :type (integer 0))
+  (in-a-row 0 :type (integer 0))
+  (left 0 :type (integer 0))
+  (verdict nil)
+  (discrepancies '() :type list))
+
+(defun parameter-bounds (parameters)
+  (map 'vector (lambda (parameter)
+                 (cons (parameter-min parameter) (parameter-max parameter)))
+       parameters))
+
+(defun begin-trace (search trace)
+  "Return the TRACE-SEARCH for TRACE.  Signals SAMPLING-ERROR."
+  (let ((parameters (initial-parameters (search-domain search) trace)))
+    (make-trace-search :search search :trace trace :parameters parameters
+                       :content (content-hash (symbolic:trace-text trace))
+                       :region (make-parameter-region
+                                (parameter-bounds parameters)
+                                (parameter-bounds (final-parameters (search-domain search)
+                                                                    trace))))))
+
+(defun conclude (trace-search status reason &optional stop)
+  "Return the TRACE-RESULT of TRACE-SEARCH, and STOP: whether the whole search ends."
+  (values (make-trace-result
+           :trace (trace-search-trace trace-search) :reason reason
+           :status (if (trace-search-discrepancies trace-search) :discrepancy status)
+           :verdict (trace-search-verdict trace-search)
+           :samples (length (trace-search-samples trace-search))
+           :rejected (trace-search-rejected trace-search)
+           :left-trace (trace-search-left trace-search)
+           :discrepancies (reverse (trace-search-discrepancies trace-search)))
+          stop))
+
+(defun note-rejection (trace-search run)
+  "Count the invalid RUN; conclude if there were too many in a row."
+  (incf (trace-search-rejected trace-search))
+  (when (> (incf (trace-search-in-a-row trace-search)) *rejection-limit*)
+    (conclude trace-search :skipped
+              (format nil "~d samples in a row were rejected, the last one because ~a"
+                      (trace-search-in-a-row trace-search) (run-validity run)))))
+
+(defun note-discrepancy (trace-search sample run judgement)
+  "Keep the discrepancy that RUN of SAMPLE is; conclude if that is the user's choice."
+  (let* ((search (trace-search-search trace-search))
+         (discrepancy (confirmed-discrepancy search sample (trace-search-trace trace-search)
+                                             run judgement)))
+    (push discrepancy (trace-search-discrepancies trace-search))
+    (ecase (offer-choices search discrepancy)
+      (:continue nil)
+      (:next-trace (conclude trace-search :discrepancy "a discrepancy was found"))
+      (:stop (conclude trace-search :discrepancy "a discrepancy was found" t)))))
+
+(defun note-agreement (trace-search sample run)
+  "Ask the confidence rule after RUN of SAMPLE, which the theory allows; conclude if it is
+satisfied."
+  (push (make-parameter-sample (sample-values sample) (run-final-values run))
+        (trace-search-samples trace-search))
+  (let ((verdict (confidence-verdict (search-rule (trace-search-search trace-search))
+                                     (reverse (trace-search-samples trace-search))
+                                     (trace-search-region trace-search))))
+    (setf (trace-search-verdict trace-search) verdict)
+    (when (eq (verdict-status verdict) :confident)
+      (conclude trace-search :certified (verdict-reason verdict)))))
+
+(defun try-sample (trace-search index)
+  "Run sample INDEX of TRACE-SEARCH.  Return NIL to go on, or what CONCLUDE returns."
+  (let* ((search (trace-search-search trace-search))
+         (trace (trace-search-trace trace-search))
+         (sample (draw-sample (trace-search-parameters trace-search) (search-seed search)
+                              (trace-search-content trace-search) index))
+         (run (simulate search sample trace)))
+    (if (not (eq (run-validity run) :valid))
+        (note-rejection trace-search run)
+        (let ((judgement (judge-run (search-domain search) run trace
+                                    :context (search-context search)
+                                    :compare (search-compare search))))
+          (setf (trace-search-in-a-row trace-search) 0)
+          (ecase (judgement-verdict judgement)
+            (:discrepancy (note-discrepancy trace-search sample run judgement))
+            (:left-trace (incf (trace-search-left trace-search)) nil)
+            (:consistent (note-agreement trace-search sample run)))))))
+
 (defun search-trace (search trace)
   "Sample TRACE until the confidence rule is met, a discrepancy ends it, or the budget is used up.
 Return the TRACE-RESULT, and true if the whole search is to end."
-  (let* ((domain (search-domain search))
-         (parameters (initial-parameters domain trace))
-         (content (content-hash (symbolic:trace-text trace)))
-         (region (make-parameter-region
-                  (map 'vector (lambda (p) (cons (parameter-min p) (parameter-max p))) parameters)
-                  (map 'vector (lambda (p) (cons (parameter-min p) (parameter-max p)))
-                       (final-parameters domain trace))))
-         (samples '()) (rejected 0) (left 0) (verdict nil) (discrepancies '()))
-    (flet ((result (status reason &optional stop)
-             (return-from search-trace
-               (values (make-trace-result :trace trace :status status :reason reason
-                                          :verdict verdict :samples (length samples)
-                                          :rejected rejected :left-trace left
-                                          :discrepancies (reverse discrepancies))
-                       stop))))
-      (loop for index from 0
+  (handler-case
+      (loop with trace-search = (begin-trace search trace)
+            for index from 0
             do (unless (within-budget-p search)
-                 (result (if discrepancies :discrepancy :undecided)
-                         (format nil "the budget of ~d simulations is used up~@[; ~a~]"
-                                 (search-budget search)
-                                 (and verdict (verdict-reason verdict)))
-                         t))
-               (let* ((sample (draw-sample parameters (search-seed search) content index))
-                      (run (simulate search sample trace)))
-                 (if (not (eq (run-validity run) :valid))
-                     (when (and (> (incf rejected) *rejection-limit*) (null samples))
-                       (error 'sampling-error
-                              :trace trace
-                              :reason (format nil "all of ~d samples were rejected; the last one ~
-                                                   because ~a" rejected (run-validity run))))
-                     (let ((judgement (judge-run domain run trace
-                                                 :context (search-context search)
-                                                 :compare (search-compare search))))
-                       (ecase (judgement-verdict judgement)
-                         (:discrepancy
-                          (push (confirmed-discrepancy search sample trace run judgement)
-                                discrepancies)
-                          (ecase (offer-choices search (first discrepancies))
-                            (:continue)
-                            (:next-trace (result :discrepancy "a discrepancy was found"))
-                            (:stop (result :discrepancy "a discrepancy was found" t))))
-                         (:left-trace (incf left))
-                         (:consistent
-                          (push (make-parameter-sample (sample-values sample)
-                                                       (run-final-values run))
-                                samples)
-                          (setf verdict (confidence-verdict (search-rule search)
-                                                            (reverse samples) region))
-                          (when (eq (verdict-status verdict) :confident)
-                            (result (if discrepancies :discrepancy :certified)
-                                    (verdict-reason verdict))))))))))))
-
-;;; Results
-
-(defclass search-result ()
-  ((plan :initarg :plan :reader result-plan)
-   (domain :initarg :domain :reader result-domain)
-   (constraint :initarg :constraint :reader result-constraint)
-   (parameters :initarg :parameters :reader result-parameters)
-   (rule-name :initarg :rule-name :reader result-rule-name)
-   (confidence :initarg :confidence :reader result-confidence)
-   (seed :initarg :seed :reader result-seed
-         :documentation "The seed of the blind samples.")
-   (exploration :initarg :exploration :reader result-exploration
-                :documentation "The EXPLORATION of the plan.")
-   (traces :initarg :traces :reader result-traces
-           :documentation "The list of the TRACE-RESULTs, in order.")
-   (simulations :initarg :simulations :reader result-simulations
-                :documentation "The number of projections.")
-   (simulation-seconds :initarg :simulation-seconds :reader result-simulation-seconds
-                       :documentation "The seconds spent in them."))
-  (:documentation "What a search has found."))
-
-(defun result-discrepancies (result)
-  "Return the list of the DISCREPANCYs that RESULT holds."
-  (loop for trace in (result-traces result) append (trace-result-discrepancies trace)))
-
-(defun result-discrepancy (result)
-  "Return the first DISCREPANCY of RESULT, or NIL."
-  (first (result-discrepancies result)))
-
-(defun result-iterations (result)
-  "Return the number of traces that were simulated."
-  (length (result-traces result)))
-
-(defun result-symbolic-seconds (result)
-  "Return the seconds spent in symbolic execution."
-  (values (symbolic:exploration-seconds (result-exploration result))))
-
-(defun result-status (result)
-  "Return :DISCREPANCY, :CERTIFIED (all traces are, and exploration was complete) or :UNDECIDED."
-  (cond ((result-discrepancies result) :discrepancy)
-        ((and (result-traces result)
-              (every (lambda (trace) (eq (trace-result-status trace) :certified))
-                     (result-traces result))
-              (symbolic:exploration-complete-p (result-exploration result)))
-         :certified)
-        (t :undecided)))
-
-(defun result-reason (result)
-  "Return a sentence without a full stop that says why RESULT has its status."
-  (let ((undecided (find :certified (result-traces result) :key #'trace-result-status
-                                                           :test-not #'eq)))
-    (cond ((result-discrepancies result) "theory and simulation disagree")
-          ((null (result-traces result))
-           "the state constraint comes true on no path, so nothing was simulated")
-          (undecided (trace-result-reason undecided))
-          ((symbolic:exploration-complete-p (result-exploration result))
-           "every trace is certified and exploration was complete")
-          (t (format nil "exploration was incomplete~@[: ~{~a~^, ~}~]"
-                     (symbolic:exploration-gaps (result-exploration result)))))))
-
-(defmethod print-object ((result search-result) stream)
-  (print-unreadable-object (result stream :type t)
-    (format stream "~(~a: ~a~), ~d iteration~:p, ~d simulation~:p, seed ~d"
-            (plan:plan-name (result-plan result)) (result-status result)
-            (result-iterations result) (result-simulations result) (result-seed result))))
-
-(defmethod describe-object ((result search-result) stream)
-  (format stream "~a~%~a" result (result-text result)))
+                 (return (conclude trace-search :undecided
+                                   (format nil "the budget of ~d simulations is used up~@[; ~a~]"
+                                           (search-budget search)
+                                           (let ((verdict (trace-search-verdict trace-search)))
+                                             (and verdict (verdict-reason verdict))))
+                                   t)))
+               (multiple-value-bind (result stop) (try-sample trace-search index)
+                 (when result
+                   (return (values result stop)))))
+    (sampling-error (condition)
+      (make-trace-result :trace trace :status :skipped
+                         :reason (sampling-error-reason condition)))))
 
 ;;; Entry point
 
@@ -259,7 +201,8 @@ return a SEARCH-RESULT.
   ON-DISCREPANCY  :RETURN, or :SIGNAL for DISCREPANCY-FOUND with the restarts CONTINUE-SEARCH,
                   NEXT-TRACE and ACCEPT
 Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, INVALID-CONFIDENCE,
-UNKNOWN-CONFIDENCE-RULE, UNKNOWN-PARAMETER, INVALID-ARGUMENT, SAMPLING-ERROR."
+UNKNOWN-CONFIDENCE-RULE, UNKNOWN-PARAMETER, IMPOSSIBLE-PARAMETER, INVALID-ARGUMENT, and what
+symbolic execution signals."
   (check-argument 'seed seed (typep seed '(unsigned-byte 64)) "an integer from 0 to 2^64 - 1")
   (check-argument 'budget budget (typep budget '(integer 1)) "a positive integer")
   (check-argument 'execution execution (member execution '(:trace :plan)) ":trace or :plan")
@@ -267,16 +210,18 @@ UNKNOWN-CONFIDENCE-RULE, UNKNOWN-PARAMETER, INVALID-ARGUMENT, SAMPLING-ERROR."
   (check-argument 'on-discrepancy on-discrepancy (member on-discrepancy '(:return :signal))
                   ":return or :signal")
   (let* ((rule-object (make-confidence-rule rule :confidence confidence))
-         (plan-object (ensure-plan plan))
-         (domain (domain-with-parameters (ensure-domain domain) parameters))
-         (exploration (symbolic:make-exploration plan domain :constraint constraint
+         (plan (ensure-plan plan))
+         (domain (ensure-domain domain))
+         (parameters (projection:normalized-parameters (domain-scene domain) parameters))
+         (domain (domain-with-parameters domain parameters))
+         (exploration (symbolic:make-exploration (plan:plan-name plan) domain :constraint constraint
                                                              :arguments arguments
                                                              :max-paths max-paths)))
     (unwind-protect
          (z3:with-context (context)
            (let ((search (make-instance
                           'search-state
-                          :plan plan-object :domain domain :parameters parameters
+                          :plan plan :domain domain :parameters parameters
                           :constraint (ec:state-constraint-name
                                        (symbolic:exploration-constraint exploration))
                           :rule rule-object :seed seed :budget budget :execution execution

@@ -1,3 +1,5 @@
+;;;; What can be wrong with a theory, or with a question to it.
+
 (in-package #:discrepancy-finder.event-calculus)
 
 (define-condition event-calculus-error (error)
@@ -23,6 +25,9 @@ move-leaves\", or NIL.")
   (:documentation "Signaled when a theory is not well-formed.  The report names file and line where
 known, the axiom, the sub-form and what was expected."))
 
+(defmethod source:self-explaining-p ((condition theory-error))
+  (and (theory-error-position condition) t))
+
 (define-condition theory-not-found (event-calculus-error)
   ((name :initarg :name :reader theory-not-found-name :documentation "The name in question."))
   (:report (lambda (condition stream)
@@ -39,9 +44,9 @@ known, the axiom, the sub-form and what was expected."))
           :documentation "The names of the constraints that the theory has."))
   (:report (lambda (condition stream)
              (with-slots (name theory known) condition
-               (format stream "Theory ~a has no state constraint~@[ named ~a~]~
-                               ~@[; it has ~{~a~^, ~}~]."
-                       (name-text theory) (and name (name-text name))
+               (format stream "Theory ~a has ~:[~:[no state constraint~;several state constraints, ~
+                               so name one~]~;no state constraint named ~:*~a~*~]~@[: ~{~a~^, ~}~]."
+                       (name-text theory) (and name (name-text name)) known
                        (mapcar #'name-text known)))))
   (:documentation "Signaled when a state constraint is asked for that was never defined."))
 

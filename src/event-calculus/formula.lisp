@@ -43,7 +43,7 @@ VARIABLES is the list of bound variables or :FREE where every variable is allowe
          (scope-problem scope form "the time ~a stands where an element was expected"
                         (name-text variable)))
         ((not (nth-value 1 (sort-elements (scope-theory scope) (variable-sort-name variable))))
-         (scope-problem scope form "the variable ~a has no sort: theory has no sort ~a"
+         (scope-problem scope form "the variable ~a has no sort: the theory has no sort ~a"
                         (name-text variable) (name-text (variable-sort-name variable))))
         ((and (listp (scope-variables scope)) (not (member variable (scope-variables scope))))
          (scope-problem scope form "the variable ~a is unbound" (name-text variable)))))

@@ -65,6 +65,11 @@ UNKNOWN-ATOM."
       (error 'unknown-atom :atom atom :kind "event"
                            :theory (theory-name (ground-theory-theory ground)))))
 
+(defun event-number (ground event)
+  "Return the number of the ground EVENT, a list of symbols, in GROUND, or NIL if EVENT is NIL.
+Signals UNKNOWN-ATOM."
+  (and event (find-event ground event)))
+
 ;;; Ground formulas
 
 (defun fold (operator parts)

@@ -8,10 +8,6 @@
 
 (in-package #:discrepancy-finder.event-calculus)
 
-(defun name-keyword (name)
-  "Return the keyword for NAME, a symbol of any package."
-  (if (keywordp name) name (intern (symbol-name name) :keyword)))
-
 (defun plain-name-p (string)
   (and (plusp (length string))
        (notany (lambda (character)
@@ -55,10 +51,13 @@
 (defun time-variable-p (thing)
   (and (variable-p thing) (eq (variable-sort-name thing) :time)))
 
+(defun proper-list-p (thing)
+  (and (listp thing) (null (cdr (last thing)))))
+
 (defun formula-text (form)
   "Return the text of FORM, a tree of symbols and numbers, on one line."
-  (typecase form
-    (null "()")
-    (symbol (name-text form))
-    (cons (format nil "(~{~a~^ ~})" (mapcar #'formula-text form)))
-    (t (princ-to-string form))))
+  (cond ((null form) "()")
+        ((symbolp form) (name-text form))
+        ((and (consp form) (proper-list-p form))
+         (format nil "(~{~a~^ ~})" (mapcar #'formula-text form)))
+        (t (let ((*print-pretty* nil)) (format nil "~(~s~)" form)))))

@@ -3,6 +3,7 @@
 after known events.")
   (:use #:cl)
   (:local-nicknames (#:z3 #:discrepancy-finder.z3) (#:source #:discrepancy-finder.source))
+  (:import-from #:discrepancy-finder.source #:name-keyword)
   (:export
    ;; theories
    #:define-theory #:load-theory #:find-theory #:theory #:theory-name #:theory-documentation
@@ -18,7 +19,7 @@ after known events.")
    #:state-constraint-theory #:theory-state-constraints #:state-constraint-p
    ;; grounding
    #:ground-theory #:ground-theory-theory #:ground-theory-fluents #:ground-theory-events
-   #:ground #:ground-formula #:find-fluent #:find-event
+   #:ground #:ground-formula #:find-fluent #:find-event #:event-number
    ;; progression
    #:state #:state-time #:fluent-value #:symbolic-state #:concrete-state #:initial-conditions
    #:state-values #:state-ground #:progress #:holds #:state-fluents

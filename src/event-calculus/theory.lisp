@@ -69,20 +69,44 @@ has no such sort."
     (null nil)
     (symbol (name-keyword form))
     (integer form)
-    (cons (unless (listp (cdr (last form)))
+    (cons (unless (proper-list-p form)
             (theory-problem theory axiom nil "a dotted list is no formula"))
      (mapcar (lambda (part) (normalize part theory axiom)) form))
     (t (theory-problem theory axiom nil "~s is neither a name nor a list" form))))
 
+(defun check-declared-name (theory-name option name entry)
+  (when (or (null name) (variable-p name))
+    (theory-problem theory-name option entry "~a cannot be a name" (formula-text name)))
+  (when (formula-operator-p name)
+    (theory-problem theory-name option entry "~a is a word of the language" (name-text name))))
+
 (defun declarations (theory-name option entries)
+  "Return ENTRIES, what follows the keyword OPTION, checked to be a list of (name name*)."
   (let ((names '()))
     (dolist (entry entries (normalize entries theory-name option))
-      (unless (and (consp entry) (every #'symbolp entry) (first entry))
+      (unless (and (consp entry) (proper-list-p entry) (every #'symbolp entry))
         (theory-problem theory-name option nil "~a was found where (name ...) was expected"
                         (formula-text entry)))
+      (dolist (name entry)
+        (check-declared-name theory-name option name entry))
       (when (member (name-keyword (first entry)) names)
         (theory-problem theory-name option entry "~a is declared twice" (name-text (first entry))))
       (push (name-keyword (first entry)) names))))
+
+(defun sort-declarations (theory-name entries)
+  "The same for sorts, whose elements must differ and whose names cannot end in a digit, since
+variables are told apart by digits."
+  (let ((sorts (declarations theory-name ":sorts" entries)))
+    (loop for (name . elements) in sorts
+          do (unless (= (length elements) (length (remove-duplicates elements)))
+               (theory-problem theory-name ":sorts" (cons name elements) "an element stands twice"))
+             (when (digit-char-p (char (symbol-name name) (1- (length (symbol-name name)))))
+               (theory-problem theory-name ":sorts" (cons name elements)
+                               "the name of a sort cannot end in a digit"))
+             (when (eq name :time)
+               (theory-problem theory-name ":sorts" (cons name elements)
+                               "time is the sort of ?time")))
+    sorts))
 
 (defun parse-axiom (theory-name entry number)
   "Return the axiom written as ENTRY: a formula, or (name formula)."
@@ -115,7 +139,7 @@ has no such sort."
          (known '(:sorts :fluents :events :axioms))
          (options '()))
     (dolist (clause clauses)
-      (unless (and (consp clause) (symbolp (first clause))
+      (unless (and (consp clause) (proper-list-p clause) (symbolp (first clause))
                    (member (name-keyword (first clause)) known))
         (error 'theory-error :theory name :position (or (source:form-position clause) position)
                              :reason (format nil "~a was found where one of ~{~(~s~)~^, ~} was ~
@@ -127,7 +151,7 @@ has no such sort."
       (let ((key (name-keyword (first clause))))
         (setf (getf options key) (append (getf options key) (rest clause)))))
     (let* ((theory (make-theory :name name :documentation documentation
-                                :sorts (declarations name ":sorts" (getf options :sorts))
+                                :sorts (sort-declarations name (getf options :sorts))
                                 :fluents (declarations name ":fluents" (getf options :fluents))
                                 :events (declarations name ":events" (getf options :events))
                                 :file file))

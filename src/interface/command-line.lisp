@@ -171,7 +171,8 @@ subcommands takes a value."
   "Call FUNCTION, which returns an exit status; return that, or the status that an error means."
   (handler-case (funcall function)
     (sb-sys:interactive-interrupt () (format *error-output* "interrupted~%") 130)
-    (sb-int:broken-pipe () 0)
+    ;; As if the signal of the broken pipe had ended the process.
+    (sb-int:broken-pipe () 141)
     (z3:solver-unknown (condition) (complain condition) 3)
     (serious-condition (condition) (complain condition) 2)))
 
@@ -183,7 +184,7 @@ subcommands takes a value."
   (let ((status (call-with-exit-status
                  (lambda ()
                    (foreign:open-libraries)
-                   (setf discrepancy::*data-directories* (image-directories))
+                   (discrepancy:use-data-directories (image-directories))
                    (prog1 (run-subcommand (rest sb-ext:*posix-argv*))
                      (finish-output))))))
     (sb-ext:exit :code status :abort t)))

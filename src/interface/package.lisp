@@ -15,12 +15,14 @@
                 #:define-theory #:load-theory #:find-theory #:define-state-constraint
                 #:event-calculus-error #:theory-error #:theory-not-found
                 #:state-constraint-not-found)
-  (:import-from #:discrepancy-finder.plan-language #:load-plan #:plan-not-found)
+  (:import-from #:discrepancy-finder.plan-language
+                #:load-plan #:plan-error #:plan-not-found #:malformed-plan-form
+                #:designator-not-understood)
   (:import-from #:discrepancy-finder.symbolic-execution
                 #:define-action #:region-of #:exploration #:exploration-traces
                 #:exploration-complete-p #:exploration-paths #:exploration-gaps
                 #:trace-initial-state #:trace-steps #:trace-final-state #:execution-trace
-                #:unsupported-form #:nondeterministic-plan #:domain-not-found #:action-problem)
+                #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan #:domain-not-found #:action-problem)
   (:import-from #:discrepancy-finder.discrepancy
                 #:define-abstraction #:load-domain #:domain
                 #:find-discrepancies #:search-result #:result-status #:result-reason
@@ -29,13 +31,14 @@
                 #:discrepancy #:discrepancy-text #:discrepancy-trace #:discrepancy-sample
                 #:discrepancy-run #:discrepancy-judgement
                 #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
-                #:save-discrepancy #:replay #:replay-status #:replay-text
+                #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
                 #:discrepancy-found #:discrepancy-found-discrepancy
                 #:continue-search #:next-trace #:accept
                 #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
                 #:invalid-confidence #:unknown-confidence-rule #:invalid-argument)
   (:import-from #:discrepancy-finder.projection
-                #:scene-error #:urdf-error #:unknown-parameter #:unknown-body)
+                #:projection-error #:scene-error #:urdf-error #:unknown-parameter
+                #:impossible-parameter #:unknown-body)
   (:import-from #:discrepancy-finder.source #:source-error)
   (:import-from #:discrepancy-finder.z3
                 #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat)
@@ -55,12 +58,14 @@
    #:result-iterations #:result-exploration
    #:discrepancy #:discrepancy-text #:discrepancy-trace #:discrepancy-sample #:discrepancy-run
    #:discrepancy-judgement
-   #:save-discrepancy #:replay #:replay-status #:replay-text
+   #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
-   #:plan-not-found #:domain-not-found #:source-error #:scene-error #:urdf-error
-   #:unknown-parameter #:unknown-body #:unsupported-form #:nondeterministic-plan #:action-problem
+   #:plan-error #:plan-not-found #:malformed-plan-form #:designator-not-understood
+   #:domain-not-found #:source-error #:scene-error #:urdf-error
+   #:projection-error #:unknown-parameter #:impossible-parameter #:unknown-body
+   #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan #:action-problem
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:invalid-confidence #:unknown-confidence-rule #:invalid-argument
    #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat

@@ -8,8 +8,7 @@
   "Return the version of the system, a string."
   #.(asdf:component-version (asdf:find-system "discrepancy-finder")))
 
-(setf discrepancy::*data-directories*
-      (list (asdf:system-source-directory "discrepancy-finder")))
+(discrepancy:use-data-directories (list (asdf:system-source-directory "discrepancy-finder")))
 
 (defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps)
   "Return an EXPLORATION that has found every trace of PLAN (a symbol) in DOMAIN (a domain or its
@@ -18,8 +17,8 @@ DESCRIBE lists them.  ARGUMENTS is a list of (parameter boolean), the plan's sym
 MAX-PATHS and MAX-STEPS bound the search.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
 STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM, NONDETERMINISTIC-PLAN, SOLVER-UNKNOWN."
   (declare (ignore constraint arguments max-paths max-steps))
-  (discrepancy:ensure-plan plan)
-  (apply #'symbolic:explore-plan plan :domain (discrepancy:ensure-domain domain)
+  (apply #'symbolic:explore-plan (plan:plan-name (discrepancy:ensure-plan plan))
+         :domain (discrepancy:ensure-domain domain)
          (alexandria:remove-from-plist options :domain)))
 
 (defun demo (&key (seed 1) (stream *standard-output*) (command "./discrepancy-finder"))

@@ -46,9 +46,10 @@
                               when (getf options key) append (list key (getf options key)))
                         (let ((text (getf options :confidence)))
                           (and text (list :confidence (number-argument text "--confidence"))))))))
-    (when (result-discrepancy result)
-      (save-discrepancy (result-discrepancy result) (getf options :save)))
-    (write-string (result-text result :command (command-name)))
+    ;; The report is printed even if the discrepancy cannot be saved.
+    (unwind-protect (when (result-discrepancy result)
+                      (save-discrepancy (result-discrepancy result) (getf options :save)))
+      (write-string (result-text result :command (command-name))))
     (status-code result)))
 
 (define-subcommand "explore" (arguments options)
@@ -85,4 +86,7 @@
     (usage-problem "replay takes one file."))
   (let ((result (replay (first arguments))))
     (write-string (replay-text result))
-    (if (eq (replay-status result) :other-verdict) 0 1)))
+    (ecase (replay-verdict result)
+      (:discrepancy 1)
+      (:consistent 0)
+      ((:left-trace :invalid) 3))))

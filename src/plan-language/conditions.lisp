@@ -28,6 +28,11 @@
                        (malformed-plan-form-expected condition)))))
   (:documentation "Signaled when a form of the plan language is expanded that is not well-formed."))
 
+(define-condition nested-top-level (plan-error)
+  ()
+  (:report "top-level calls cannot be nested.")
+  (:documentation "Signaled when a top-level is entered while another one runs."))
+
 (define-condition no-executive (plan-error)
   ((designator :initarg :designator :reader no-executive-designator
                :documentation "The designator that was to be performed."))

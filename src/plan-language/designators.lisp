@@ -2,7 +2,8 @@
 ;;;;
 ;;;; (a motion (type going) (pose ?goal)) makes one.  Its keys and the symbols in its values become
 ;;;; keywords, symbols that begin with ? are variables, numbers and strings stand for themselves,
-;;;; a nested (an object ...) is a designator, any other list a list.  DESIG-PROP-VALUE reads them.
+;;;; a nested (an object ...) is a designator, any other list a list.  (when ?x (key value)) is there
+;;;; only if ?x is true.  DESIG-PROP-VALUE reads them.
 
 (in-package #:discrepancy-finder.plan-language)
 
@@ -77,35 +78,37 @@ designator, or else NIL."
   (let ((name (symbol-name symbol)))
     (and (plusp (length name)) (char= (char name 0) #\?))))
 
-(defun keyword-named (symbol)
-  (intern (symbol-name symbol) :keyword))
-
 (defun value-form (value)
   "Return the form that evaluates to the property value written as VALUE."
   (typecase value
     (null nil)
     (keyword value)
-    (symbol (if (variable-symbol-p value) value (keyword-named value)))
+    (symbol (if (variable-symbol-p value) value (source:name-keyword value)))
     (cons (if (and (symbolp (first value))
                    (member (symbol-name (first value)) '("A" "AN" "THE") :test #'string=)
                    (consp (rest value)) (symbolp (second value))
-                   (assoc (keyword-named (second value)) *designator-classes*))
+                   (assoc (source:name-keyword (second value)) *designator-classes*))
               (designator-form (second value) (cddr value) value)
               `(list ,@(mapcar #'value-form value))))
     (t value)))
 
+(defun property-form (property form)
+  "Return a form for the list of the pairs that PROPERTY of the designator FORM stands for:
+(key value), or (when test property) for one that is there only if the test is true."
+  (unless (and (consp property) (symbolp (first property)) (consp (rest property)))
+    (error 'malformed-plan-form :form form :expected "properties of the form (key value)"))
+  (if (and (string= (first property) "WHEN") (= (length property) 3) (consp (third property)))
+      `(when ,(second property) ,(property-form (third property) form))
+      `(list (list ,(source:name-keyword (first property))
+                   ,@(mapcar #'value-form (rest property))))))
+
 (defun designator-form (type properties form)
-  (unless (and (symbolp type) (assoc (keyword-named type) *designator-classes*))
+  (unless (and (symbolp type) (assoc (source:name-keyword type) *designator-classes*))
     (error 'malformed-plan-form
            :form form :expected "action, motion, object or location after the article"))
-  `(make-designator
-    ,(keyword-named type)
-    (list ,@(loop for property in properties
-                  unless (and (consp property) (symbolp (first property)) (consp (rest property)))
-                    do (error 'malformed-plan-form :form form
-                                                   :expected "properties of the form (key value)")
-                  collect `(list ,(keyword-named (first property))
-                                 ,@(mapcar #'value-form (rest property)))))))
+  `(make-designator ,(source:name-keyword type)
+                    (append ,@(loop for property in properties
+                                    collect (property-form property form)))))
 
 (defmacro a (&whole form type &body properties)
   "Return a new designator of TYPE (action, motion, object, location), unevaluated, with

@@ -34,6 +34,17 @@ PLAN-FAILURE if that fails, NO-EXECUTIVE outside of any executive."
   (let ((*executive* executive))
     (funcall function)))
 
+(defun current-handlers ()
+  "Return the condition handlers that are in force, for WITH-HANDLERS."
+  sb-kernel:*handler-clusters*)
+
+(defmacro with-handlers ((handlers) &body body)
+  "Evaluate BODY with HANDLERS, a value of CURRENT-HANDLERS, in the place of those in force.  An
+executive runs its own machinery so, with the handlers from outside the plan: otherwise a plan's
+handler for all errors would handle what is wrong with the executive."
+  `(let ((sb-kernel:*handler-clusters* ,handlers))
+     ,@body))
+
 (defmacro with-executive ((executive) &body body)
   "Evaluate BODY; what it performs is performed by EXECUTIVE."
   `(call-with-executive ,executive (lambda () ,@body)))

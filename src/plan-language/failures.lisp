@@ -85,6 +85,14 @@ MALFORMED-PLAN-FORM."
                (<= (length (second clause)) 1))
     (error 'malformed-plan-form :form form :expected "a list of clauses (class (variable) form*)")))
 
+(defun failure-handler (clause)
+  "Return a form for the (type . function) of CLAUSE."
+  (destructuring-bind (type (&optional (variable nil named)) &body handler) clause
+    (let ((parameter (if named variable (gensym "FAILURE"))))
+      `(cons ',type (lambda (,parameter)
+                      (declare (ignorable ,parameter))
+                      ,@handler)))))
+
 (defmacro with-failure-handling (clauses &body body)
   "Evaluate BODY and return its values.  CLAUSES are (type ([variable]) form*): when a condition of
 TYPE, a class or (or class*), is signaled in BODY, the forms run before the stack is unwound.  They
@@ -96,16 +104,11 @@ outer handlers have their turn.  Semantics are CRAM's."
           ,again
           (return
             (call-with-failure-handlers
-             (list ,@(loop for clause in clauses
-                           do (check-failure-clause clause `(with-failure-handling ,clauses))
-                           collect (destructuring-bind (type (&optional (variable (gensym)))
-                                                        &body handler) clause
-                                     `(cons ',type
-                                            (lambda (,variable)
-                                              (declare (ignorable ,variable))
-                                              (flet ((retry () (go ,again)))
-                                                (declare (ignorable #'retry))
-                                                ,@handler))))))
+             (flet ((retry () (go ,again)))
+               (declare (ignorable #'retry))
+               (list ,@(loop for clause in clauses
+                             do (check-failure-clause clause `(with-failure-handling ,clauses))
+                             collect (failure-handler clause))))
              (lambda () ,@body)))))))
 
 ;;; Retry counters
@@ -124,11 +127,23 @@ outer handlers have their turn.  Semantics are CRAM's."
 (defun restart-counter (counter)
   (setf (retry-counter-count counter) (funcall (retry-counter-initial counter))))
 
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (defun counter-variable (name)
-    "Return the symbol under which the retry counter NAME is known: not NAME itself, which the plan
+(defun counter-form (name form environment)
+  "Return the form for the retry counter NAME that is lexically visible in ENVIRONMENT.  Signals
+MALFORMED-PLAN-FORM for FORM if there is none."
+  (let ((variable (counter-variable name)))
+    (if (nth-value 1 (macroexpand-1 variable environment))
+        variable
+        (error 'malformed-plan-form
+               :form form
+               :expected (format nil "a retry counter ~(~a~) of an enclosing with-retry-counters"
+                                 name)))))
+
+(defun counter-variable (name)
+  "Return the symbol under which the retry counter NAME is known: not NAME itself, which the plan
 may use for a variable of its own."
-    (intern (format nil "RETRY-COUNTER ~a" (symbol-name name)) (symbol-package name))))
+  (intern (format nil "RETRY-COUNTER ~a:~a"
+                  (package-name (or (symbol-package name) *package*)) name)
+          '#:discrepancy-finder.plan-language))
 
 (defmacro with-retry-counters (bindings &body body)
   "Evaluate BODY with retry counters: BINDINGS are (name number).  In BODY, (do-retry name form*)
@@ -138,24 +153,21 @@ evaluates the forms and counts down while retries are left and returns NIL after
     `(let ,(loop for variable in variables
                  for (nil number) in bindings
                  collect `(,variable (make-retry-counter (lambda () ,number) ,number)))
-       (macrolet ((do-retry (name &body forms)
-                    `(when (take-retry ,(counter-variable name)) ,@forms))
-                  (get-counter (name) `(retry-counter-count ,(counter-variable name)))
-                  (reset-counter (name) `(restart-counter ,(counter-variable name))))
-         (symbol-macrolet ,(loop for variable in variables
-                                 for (name nil) in bindings
-                                 collect `(,(counter-variable name) ,variable))
-           ,@body)))))
+       (declare (ignorable ,@variables))
+       (symbol-macrolet ,(loop for variable in variables
+                               for (name nil) in bindings
+                               collect `(,(counter-variable name) ,variable))
+         ,@body))))
 
-(macrolet ((define-outside (name lambda-list documentation)
-             `(defmacro ,name (&whole form ,@lambda-list)
-                ,documentation
-                (declare (ignore ,@(remove '&body lambda-list)))
-                (error 'malformed-plan-form
-                       :form form :expected "an enclosing with-retry-counters"))))
-  (define-outside do-retry (name &body forms)
-    "Inside WITH-RETRY-COUNTERS, evaluate FORMS while the counter NAME has retries left.")
-  (define-outside get-counter (name)
-    "Inside WITH-RETRY-COUNTERS, return the number of retries that the counter NAME has left.")
-  (define-outside reset-counter (name)
-    "Inside WITH-RETRY-COUNTERS, give the counter NAME its initial number of retries again."))
+(defmacro do-retry (&whole form name &body forms &environment environment)
+  "Inside WITH-RETRY-COUNTERS, evaluate FORMS and count down the counter NAME if it has retries
+left; else return NIL."
+  `(when (take-retry ,(counter-form name form environment)) ,@forms))
+
+(defmacro get-counter (&whole form name &environment environment)
+  "Inside WITH-RETRY-COUNTERS, return the number of retries that the counter NAME has left."
+  `(retry-counter-count ,(counter-form name form environment)))
+
+(defmacro reset-counter (&whole form name &environment environment)
+  "Inside WITH-RETRY-COUNTERS, give the counter NAME its initial number of retries again."
+  `(restart-counter ,(counter-form name form environment)))

@@ -25,8 +25,9 @@
    #:action #:motion #:object #:location
    ;; executive
    #:perform #:perform-with #:call-with-executive #:with-executive
+   #:current-handlers #:with-handlers
    ;; conditions
-   #:plan-error #:plan-not-found #:plan-not-found-name #:no-executive
+   #:plan-error #:nested-top-level #:plan-not-found #:plan-not-found-name #:no-executive
    #:designator-not-understood #:designator-not-understood-designator
    #:malformed-plan-form))
 

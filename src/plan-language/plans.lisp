@@ -23,14 +23,16 @@
 (defvar *plans* (make-hash-table :test 'eq)
   "The plan of each name.")
 
-(defun find-plan (name)
-  "Return the PLAN named by the symbol NAME.  Signals PLAN-NOT-FOUND."
-  (or (gethash name *plans*)
-      (error 'plan-not-found :name name)))
-
 (defun plan-source (name)
-  "Return the PLAN named by the symbol NAME, or NIL if it names none."
+  "Return the PLAN of the function named by the symbol NAME, or NIL if it is no plan."
   (values (gethash name *plans*)))
+
+(defun find-plan (name)
+  "Return the PLAN named by the symbol NAME, or by the symbol of the same name in the package
+DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
+  (or (plan-source name)
+      (plan-source (find-symbol (symbol-name name) '#:discrepancy-finder-user))
+      (error 'plan-not-found :name name)))
 
 (defun record-plan (plan)
   (setf (gethash (plan-name plan) *plans*) plan))
@@ -40,7 +42,7 @@
 
 (defun call-in-top-level (function)
   (when *in-top-level*
-    (error "top-level calls cannot be nested."))
+    (error 'nested-top-level))
   (let ((*in-top-level* t))
     (funcall function)))
 

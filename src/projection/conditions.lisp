@@ -1,3 +1,5 @@
+;;;; What can be wrong with a scene and the models in it.
+
 (in-package #:discrepancy-finder.projection)
 
 (define-condition projection-error (error)
@@ -36,6 +38,20 @@
                (format stream "The scene ~(~a~) has no parameter ~(~a~); it has ~{~(~a~)~^, ~}."
                        scene name known))))
   (:documentation "Signaled when a parameter is named that a scene does not have."))
+
+(define-condition impossible-parameter (projection-error)
+  ((name :initarg :name :reader impossible-parameter-name :documentation "The parameter's name.")
+   (value :initarg :value :reader impossible-parameter-value :documentation "What was given."))
+  (:report (lambda (condition stream)
+             (let ((*read-default-float-format* 'double-float))
+               (format stream "The scene parameter ~(~a~) is ~(~s~) where a positive number was ~
+                               expected."
+                       (impossible-parameter-name condition)
+                       (impossible-parameter-value condition)))))
+  (:documentation "Signaled when a scene parameter is given a value that is no positive number."))
+
+(defmethod source:self-explaining-p ((condition scene-error)) t)
+(defmethod source:self-explaining-p ((condition urdf-error)) t)
 
 (define-condition unknown-body (projection-error)
   ((name :initarg :name :reader unknown-body-name :documentation "The name in question.")

@@ -65,12 +65,10 @@ Signals MANIPULATION-POSE-UNREACHABLE."
 
 (defun retract-arm (projection lift)
   "Take the arm back in front of the base at the height LIFT."
-  (let ((joint (find-joint (projection-robot projection) :extension)))
-    (destructuring-bind (shoulder extension)
-        (list (joint-position (projection-robot projection) :shoulder)
-              (or (urdf-joint-lower joint) 0d0))
-      (move-arm projection lift shoulder extension)
-      (move-arm projection lift 0d0 extension))))
+  (let* ((robot (projection-robot projection))
+         (extension (or (urdf-joint-lower (find-joint robot :extension)) 0d0)))
+    (move-arm projection lift (joint-position robot :shoulder) extension)
+    (move-arm projection lift 0d0 extension)))
 
 (defun visit (projection pose height what function)
   "Bring the tip of the gripper from above to HEIGHT above the position of POSE, call FUNCTION

@@ -27,6 +27,10 @@
                          (t length))))
     (if (zerop length) 1d0 (min 1d0 (/ distance length)))))
 
+(defun interpolate (start goal fraction)
+  "Return the number at FRACTION of the way from START to GOAL."
+  (+ start (* fraction (- goal start))))
+
 (defun call-along-profile (function length speed acceleration)
   "Call FUNCTION with the part of a move over LENGTH that is done after each simulation step, until
 it returns true or the move is done.  Return what it returned last."

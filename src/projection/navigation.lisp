@@ -21,9 +21,6 @@
             do (return-from fixture-contact
                  (list (bullet:body-name link) (bullet:body-name fixture))))))
 
-(defun interpolate (start goal fraction)
-  (+ start (* fraction (- goal start))))
-
 (defun drive-base (projection goal)
   "Drive the robot of PROJECTION straight to the pose GOAL, of which x, y and yaw count.  Signals
 NAVIGATION-GOAL-NOT-REACHED where a link touches a fixture; the base stops there."

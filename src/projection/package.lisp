@@ -8,7 +8,7 @@
   (:export
    ;; scenes
    #:load-scene #:scene #:scene-name #:scene-file #:scene-files #:scene-parameters #:scene-parameter
-   #:scene-with-parameters #:scene-body-pose #:scene-item-names #:scene-robot-name
+   #:scene-with-parameters #:normalized-parameters #:scene-body-pose #:scene-item-names #:scene-robot-name
    ;; URDF
    #:read-urdf #:urdf-model #:urdf-model-name #:urdf-link #:urdf-joint
    ;; projections
@@ -19,4 +19,4 @@
    #:execute-designator #:drive-base #:move-arm
    ;; conditions
    #:projection-error #:scene-error #:scene-error-file #:scene-error-reason #:urdf-error
-   #:unknown-parameter #:unknown-body))
+   #:unknown-parameter #:impossible-parameter #:unknown-body))

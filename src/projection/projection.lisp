@@ -35,22 +35,28 @@
   "Add the links of PART, a fixture or an item, to WORLD and return their bodies."
   (add-links (make-instance 'robot :part part :base-pose (part-pose part poses)) world kind))
 
-(defun make-projection (scene &key poses)
-  "Return a new PROJECTION of SCENE.  POSES is a property list of poses that replace the scene's
-own, by the name (a keyword) of the robot or item.  Signals BULLET-ERROR for impossible numbers."
-  (let* ((world (bullet:make-world :time-step +time-step+))
-         (part (scene-robot scene))
+(defun build-world (scene poses world)
+  "Add all parts of SCENE to WORLD and return the projection."
+  (let* ((part (scene-robot scene))
          (robot (and part (make-instance 'robot :part part :base-pose (part-pose part poses)))))
     (bullet:add-body world "ground" '(:plane 0d0 0d0 1d0 0d0) (identity-pose) :kind :static)
     (let ((fixtures (loop for part in (parts-of-kind scene :fixture)
                           append (add-model part poses world :static))))
       (when robot (add-links robot world :kinematic))
-      (make-instance
-       'projection
-       :scene scene :world world :robot robot :fixtures fixtures
-       :items (loop for part in (parts-of-kind scene :item)
-                    collect (cons (scene-part-name part)
-                                  (first (add-model part poses world :dynamic))))))))
+      (make-instance 'projection
+                     :scene scene :world world :robot robot :fixtures fixtures
+                     :items (loop for part in (parts-of-kind scene :item)
+                                  collect (cons (scene-part-name part)
+                                                (first (add-model part poses world
+                                                                  :dynamic))))))))
+
+(defun make-projection (scene &key poses)
+  "Return a new PROJECTION of SCENE.  POSES is a property list of poses that replace the scene's
+own, by the name (a keyword) of the robot or item.  Signals BULLET-ERROR for impossible numbers."
+  (let ((world (bullet:make-world :time-step +time-step+))
+        (projection nil))
+    (unwind-protect (setf projection (build-world scene poses world))
+      (unless projection (bullet:close-world world)))))
 
 (defun close-projection (projection)
   "Free the world of PROJECTION."
@@ -58,18 +64,17 @@ own, by the name (a keyword) of the robot or item.  Signals BULLET-ERROR for imp
 
 (defmacro with-projection ((projection scene &rest options) &body body)
   "Evaluate BODY with PROJECTION bound to a new projection of SCENE, which is closed afterwards.
-OPTIONS are those of MAKE-PROJECTION.  The float traps of C are set once, here."
-  `(foreign:with-c-float-traps
-     (let ((,projection (make-projection ,scene ,@options)))
-       (unwind-protect (progn ,@body)
-         (close-projection ,projection)))))
+OPTIONS are those of MAKE-PROJECTION."
+  `(let ((,projection (make-projection ,scene ,@options)))
+     (unwind-protect (progn ,@body)
+       (close-projection ,projection))))
 
 ;;; What can be seen of the outcome
 
 (defun observed-pose (projection name)
   "Return the pose of the robot's base or of the item NAME, a symbol, in PROJECTION.  Signals
 UNKNOWN-BODY."
-  (let ((name (keyword-for name))
+  (let ((name (source:name-keyword name))
         (scene (projection-scene projection)))
     (cond ((eq name (scene-robot-name scene)) (base-pose (projection-robot projection)))
           ((assoc name (projection-items projection))
@@ -108,10 +113,11 @@ the names of the two bodies.  The robot's links and the fixtures count, too."
   "Let PROJECTION run until everything in it rests, for LIMIT seconds at the most.  Return true if
 it rests."
   (let ((world (projection-world projection)))
-    (loop repeat (ceiling limit +time-step+)
-          until (bullet:at-rest-p world)
-          do (bullet:step-world world))
-    (bullet:at-rest-p world)))
+    (foreign:with-c-float-traps
+      (loop repeat (ceiling limit +time-step+)
+            until (bullet:at-rest-p world)
+            do (bullet:step-world world))
+      (bullet:at-rest-p world))))
 
 ;;; Performing
 
@@ -126,8 +132,10 @@ execution fails, DESIGNATOR-NOT-UNDERSTOOD if it cannot be interpreted.")
 
 (defmethod plan:perform-with ((projection projection) designator position)
   (declare (ignore position))
-  (execute-designator projection (plan:designator-class-keyword designator)
-                      (plan:desig-prop-value designator :type) designator))
+  ;; The float traps of C are set once an execution; the plan itself has those of Lisp.
+  (foreign:with-c-float-traps
+    (execute-designator projection (plan:designator-class-keyword designator)
+                        (plan:desig-prop-value designator :type) designator)))
 
 (defun misunderstood (designator reason)
   (error 'plan:designator-not-understood :designator designator :executive "The projection"

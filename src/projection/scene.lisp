@@ -32,9 +32,6 @@
     (format stream "~(~a~):~{ ~(~a~)~}" (scene-name scene)
             (mapcar #'scene-part-name (scene-parts scene)))))
 
-(defun keyword-for (symbol)
-  (intern (symbol-name symbol) :keyword))
-
 (defun scene-parameter (scene name)
   "Return the value, a double float, of the parameter NAME (a symbol) of SCENE.  Signals
 UNKNOWN-PARAMETER."
@@ -45,19 +42,38 @@ UNKNOWN-PARAMETER."
         (error 'unknown-parameter :name name :scene (scene-name scene)
                                   :known (mapcar #'first (scene-parameters scene))))))
 
+(defun check-parameters (scene values)
+  "Signal UNKNOWN-PARAMETER or IMPOSSIBLE-PARAMETER unless VALUES is a property list of SCENE's
+parameters and positive reals."
+  (unless (evenp (length values))
+    (error 'impossible-parameter :name (first (last values)) :value nil))
+  (loop for (name value) on values by #'cddr
+        do (unless (symbolp name)
+             (error 'unknown-parameter :name name :scene (scene-name scene)
+                                       :known (mapcar #'first (scene-parameters scene))))
+           (scene-parameter scene name)
+           (unless (and (realp value) (< 0 value 1000000000))
+             (error 'impossible-parameter :name name :value value))))
+
+(defun normalized-parameters (scene values)
+  "Return VALUES, a property list of scene parameters and reals, with keywords and double floats.
+Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
+  (check-parameters scene values)
+  (loop for (name value) on values by #'cddr
+        append (list (source:name-keyword name) (decimal-double value))))
+
 (defun scene-with-parameters (scene values)
-  "Return SCENE with the parameters in VALUES, a property list of names and reals, changed.  Signals
-UNKNOWN-PARAMETER."
-  (loop for (name) on values by #'cddr do (scene-parameter scene name))
-  (make-scene :name (scene-name scene) :documentation (scene-documentation scene)
-              :file (scene-file scene) :parts (scene-parts scene)
-              :parameters (loop for (name value . more) in (scene-parameters scene)
-                                for new = (getf values name)
-                                collect (list* name (if new (decimal-double new) value) more))))
+  "Return SCENE with the parameters in VALUES, a property list of names and positive reals, changed.
+Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
+  (let ((values (normalized-parameters scene values)))
+    (make-scene :name (scene-name scene) :documentation (scene-documentation scene)
+                :file (scene-file scene) :parts (scene-parts scene)
+                :parameters (loop for (name value . more) in (scene-parameters scene)
+                                  collect (list* name (getf values name value) more)))))
 
 (defun scene-part (scene name)
   "Return the part NAME, a symbol, of SCENE.  Signals UNKNOWN-BODY."
-  (or (find (keyword-for name) (scene-parts scene) :key #'scene-part-name)
+  (or (find (source:name-keyword name) (scene-parts scene) :key #'scene-part-name)
       (error 'unknown-body :name name :scene (scene-name scene))))
 
 (defun scene-body-pose (scene name)
@@ -110,16 +126,26 @@ UNKNOWN-PARAMETER."
     (destructuring-bind (x y z &optional (yaw 0)) numbers
       (make-pose x y z :yaw yaw))))
 
-(defun model-names (model)
-  (append (mapcar #'urdf-joint-name (urdf-model-joints model))
-          (mapcar #'urdf-link-name (urdf-model-links model))))
+(defun role-problem (role name model)
+  "Return what is wrong with NAME in the ROLE of a robot with MODEL, or NIL."
+  (let ((joint (find name (urdf-model-joints model) :key #'urdf-joint-name :test #'equal))
+        (link (find name (urdf-model-links model) :key #'urdf-link-name :test #'equal)))
+    (ecase role
+      (:gripper (cond ((null link) "no such link")
+                      ((null (urdf-link-shape link)) "a link without a shape")))
+      ((:lift :extension :shoulder)
+       (let ((types (if (eq role :shoulder) '(:revolute :continuous) '(:prismatic))))
+         (cond ((null joint) "no such joint")
+               ((not (member (urdf-joint-type joint) types))
+                (format nil "a joint that is not ~(~a~)" (first types)))))))))
 
 (defun robot-roles (clause model file)
   (loop for role in '(:lift :shoulder :extension :gripper)
         for name = (first (option-value clause role file))
-        do (unless (member name (model-names model) :test #'equal)
-             (scene-problem file clause "~(~s~) ~s: ~a has no such joint or link"
-                            role name (urdf-model-file model)))
+        for problem = (role-problem role name model)
+        do (when problem
+             (scene-problem file clause "~(~s~) ~s: ~a has ~a" role name (urdf-model-file model)
+                            problem))
         collect role collect name))
 
 (defun parse-part (clause file)
@@ -133,14 +159,16 @@ UNKNOWN-PARAMETER."
                            (plusp (urdf-link-mass (first (urdf-model-links model)))))))
         (scene-problem file clause "the item ~(~a~) must have one link, with a mass and a shape"
                        name))
-      (make-scene-part :name (keyword-for name) :kind kind :model model
+      (make-scene-part :name (source:name-keyword name) :kind kind :model model
                        :pose (clause-pose clause file)
                        :roles (and (eq kind :robot) (robot-roles clause model file))))))
 
 (defun parse-parameter (entry file)
-  (unless (and (consp entry) (symbolp (first entry)) (realp (second entry)))
-    (scene-problem file entry "(name number [documentation]) was expected in :parameters"))
-  (list* (keyword-for (first entry)) (decimal-double (second entry)) (cddr entry)))
+  (unless (and (consp entry) (symbolp (first entry)) (realp (second entry))
+               (plusp (second entry)))
+    (scene-problem file entry "(name positive-number [documentation]) was expected in ~
+                               :parameters"))
+  (list* (source:name-keyword (first entry)) (decimal-double (second entry)) (cddr entry)))
 
 (defun parse-scene (form file)
   (destructuring-bind (name &rest clauses) (rest form)
@@ -163,7 +191,7 @@ UNKNOWN-PARAMETER."
           (scene-problem file form "two parts have the same name")))
       (unless (<= (count :robot parts :key #'scene-part-kind) 1)
         (scene-problem file form "there can be one robot only"))
-      (make-scene :name (keyword-for name) :documentation documentation :file (namestring file)
+      (make-scene :name (source:name-keyword name) :documentation documentation :file (namestring file)
                   :parts (nreverse parts) :parameters parameters))))
 
 (defun load-scene (file)

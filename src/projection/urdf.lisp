@@ -38,12 +38,13 @@
     (format stream "~a: ~d link~:p, ~d joint~:p" (urdf-model-name model)
             (length (urdf-model-links model)) (length (urdf-model-joints model)))))
 
-(defvar *urdf-file* ""
-  "The file that is being read, for error reports.")
+(define-condition urdf-fault (error)
+  ((element :initarg :element :reader urdf-fault-element)
+   (reason :initarg :reason :reader urdf-fault-reason))
+  (:documentation "Signaled within a file; READ-URDF, which knows its name, makes it URDF-ERROR."))
 
 (defun urdf-problem (element control &rest arguments)
-  (error 'urdf-error :file *urdf-file* :element element
-                     :reason (apply #'format nil control arguments)))
+  (error 'urdf-fault :element element :reason (apply #'format nil control arguments)))
 
 (defun attribute (node name &optional default)
   (let ((entry (find name (xmls:node-attrs node) :key #'first :test #'string=)))
@@ -180,17 +181,25 @@
     (error (condition)
       (urdf-problem nil "it is not well-formed XML (~a)" (source:condition-sentence condition)))))
 
-(defun read-urdf (file)
-  "Return the URDF-MODEL in FILE.  Signals URDF-ERROR, which names the file and the element, if the
-file is missing, malformed, or uses what is not supported."
-  (let* ((*urdf-file* (namestring file))
-         (text (handler-case (uiop:read-file-string file :external-format :utf-8)
-                 (file-error () (urdf-problem nil "no such file"))))
-         (root (parse-xml text)))
+(defun parse-urdf (text file)
+  "Return the URDF-MODEL that TEXT, the content of FILE, describes."
+  (let ((root (parse-xml text)))
     (unless (and (xmls:node-p root) (string= (xmls:node-name root) "robot"))
       (urdf-problem nil "its root element is not <robot>"))
     (let ((links (mapcar #'parse-link (children root "link")))
           (joints (mapcar #'parse-joint (children root "joint"))))
       (multiple-value-bind (root-link ordered) (order-joints joints links)
-        (make-urdf-model :name (required-attribute root "name" "robot") :file *urdf-file*
+        (make-urdf-model :name (required-attribute root "name" "robot") :file file
                          :root root-link :links links :joints ordered)))))
+
+(defun read-urdf (file)
+  "Return the URDF-MODEL in FILE.  Signals URDF-ERROR, which names the file and the element, if the
+file is missing, malformed, or uses what is not supported."
+  (let ((name (namestring file)))
+    (handler-case (parse-urdf (handler-case (uiop:read-file-string file :external-format :utf-8)
+                                (file-error () (urdf-problem nil "no such file"))
+                                (stream-error () (urdf-problem nil "it is not a UTF-8 text")))
+                              name)
+      (urdf-fault (fault)
+        (error 'urdf-error :file name :element (urdf-fault-element fault)
+                           :reason (urdf-fault-reason fault))))))

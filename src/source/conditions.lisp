@@ -1,3 +1,5 @@
+;;;; What can be wrong with a file of forms, and reports on one line.
+
 (in-package #:discrepancy-finder.source)
 
 (define-condition source-error (error)

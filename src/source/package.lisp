@@ -5,10 +5,12 @@ form knows its file and line.")
   (:export
    ;; positions
    #:source-position #:source-position-file #:source-position-line #:form-position
+   ;; names
+   #:name-keyword
    ;; reading
    #:read-source #:load-source
    ;; taking data apart
    #:destructuring-or
    ;; conditions
    #:source-error #:source-error-file #:source-error-line #:source-error-reason
-   #:condition-sentence))
+   #:condition-sentence #:self-explaining-p))

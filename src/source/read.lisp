@@ -37,16 +37,30 @@ read by READ-SOURCE or LOAD-SOURCE."
                            :reason (format nil "not a UTF-8 text: ~a"
                                            (condition-sentence condition))))))
 
-(defun line-at (text offset)
-  (1+ (count #\Newline text :end (min offset (length text)))))
+(defun line-starts (text)
+  "Return the vector of the offsets at which the lines of TEXT begin."
+  (coerce (cons 0 (loop for character across text
+                        for offset from 1
+                        when (char= character #\Newline) collect offset))
+          'simple-vector))
 
-(defun tracking-readtable (file text)
+(defun line-at (starts offset)
+  "Return the number, from 1, of the line in which OFFSET lies, by binary search in STARTS."
+  (let ((low 0) (high (length starts)))
+    (loop while (< (1+ low) high)
+          do (let ((middle (floor (+ low high) 2)))
+               (if (<= (svref starts middle) offset)
+                   (setf low middle)
+                   (setf high middle))))
+    (1+ low)))
+
+(defun tracking-readtable (file starts)
   "Return a standard readtable whose lists are entered in *POSITIONS*."
   (let* ((readtable (copy-readtable nil))
          (read-list (get-macro-character #\( readtable)))
     (set-macro-character
      #\( (lambda (stream character)
-           (let ((line (line-at text (1- (file-position stream))))
+           (let ((line (line-at starts (1- (file-position stream))))
                  (form (funcall read-list stream character)))
              (when (consp form)
                (setf (gethash form *positions*) (make-source-position file line)))
@@ -54,39 +68,53 @@ read by READ-SOURCE or LOAD-SOURCE."
      nil readtable)
     readtable))
 
+(defun skip-block-comment (stream)
+  "If STREAM is at a block comment, skip it and return true."
+  (let ((start (file-position stream)))
+    (read-char stream)
+    (cond ((eql (peek-char nil stream nil) #\|)
+           (read-char stream)
+           (funcall (get-dispatch-macro-character #\# #\|) stream #\| nil)
+           t)
+          (t (file-position stream start)
+             nil))))
+
 (defun skip-to-form (stream)
-  "Skip white space and line comments of STREAM and return the offset of the next character."
+  "Skip white space and comments of STREAM and return the offset of the next character."
   (loop for character = (peek-char t stream nil)
-        while (eql character #\;)
-        do (read-line stream nil))
+        do (cond ((eql character #\;) (read-line stream nil))
+                 ((and (eql character #\#) (skip-block-comment stream)))
+                 (t (return))))
   (file-position stream))
 
-(defun read-form (stream file text)
+(defun read-form (stream file starts)
   "Return the next form of STREAM, or STREAM itself at the end, and the offset where it begins."
-  (let ((start (skip-to-form stream)))
-    (handler-case (values (read stream nil stream) start)
+  (let ((start (file-position stream)))
+    (handler-case (progn (setf start (skip-to-form stream))
+                         (values (read stream nil stream) start))
       (end-of-file ()
-        (error 'source-error :file file :line (line-at text start)
+        (error 'source-error :file file :line (line-at starts start)
                              :reason "the form that begins here is not closed"))
       (error (condition)
         (error 'source-error :file file
-                             :line (line-at text (or (file-position stream) start))
+                             :line (line-at starts (max start (1- (file-position stream))))
                              :reason (condition-sentence condition))))))
 
 (defun map-forms (function file package)
   "Call FUNCTION with each form of FILE, read in PACKAGE, and the line where it begins."
   (let* ((name (namestring file))
          (text (file-text file))
+         (starts (line-starts text))
          (*package* (find-package package))
          (*read-eval* nil)
-         (*readtable* (tracking-readtable name text))
+         (*readtable* (tracking-readtable name starts))
          (*read-default-float-format* 'double-float))
     (with-input-from-string (stream text)
       (loop
-        (multiple-value-bind (form start) (read-form stream name text)
+        (multiple-value-bind (form start) (read-form stream name starts)
           (when (eq form stream)
             (return))
-          (funcall function form (line-at text start)))))))
+          (funcall function form (line-at starts start)))))))
 
 (defun read-source (file &key (package *package*))
   "Return the list of the forms in FILE, read in PACKAGE; nothing is evaluated.  Numbers with a
@@ -100,6 +128,24 @@ point are double floats.  Signals SOURCE-ERROR."
 file and line in front of it.")
   (:method (condition) (typep condition 'source-error)))
 
+(defun loading-problem (condition file line)
+  "Signal a SOURCE-ERROR for CONDITION, signaled by a form at LINE of FILE."
+  (error 'source-error
+         :file file :line line
+         :reason (typecase condition
+                   ;; What the compiler could not make sense of, with its own first words.
+                   (sb-int:compiled-program-error
+                    (one-line (sb-kernel::program-error-message condition)))
+                   (t (condition-sentence condition)))))
+
+(defun evaluate-form (form)
+  "Evaluate FORM.  What the compiler says is printed only if there is no error: an error is reported
+by its condition."
+  (let ((output (make-string-output-stream)))
+    (let ((*error-output* output))
+      (eval form))
+    (write-string (get-output-stream-string output) *error-output*)))
+
 (defun load-source (file &key (package *package*))
   "Read the forms of FILE in PACKAGE and evaluate each before the next is read, as LOAD does.
 Return the true name of FILE.  Signals SOURCE-ERROR, which names file and line, also for an error
@@ -111,10 +157,9 @@ that occurs while a form is evaluated."
            ((error (lambda (condition)
                      ;; Errors that say file and line themselves pass.
                      (unless (self-explaining-p condition)
-                       (error 'source-error :file name :line line
-                                            :reason (condition-sentence condition))))))
+                       (loading-problem condition name line)))))
          ;; A plan file is code: this is its loader.
          (let ((*load-pathname* (pathname file)) (*load-truename* (truename file)))
-           (eval form))))
+           (evaluate-form form))))
      file package)
     (truename file)))

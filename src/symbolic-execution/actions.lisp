@@ -52,10 +52,12 @@ place of POSE, or NIL if none does."))
 ;;; Bindings
 
 (defstruct (action-binding (:copier nil))
-  "Designators of CLASS (:motion or :action) and TYPE, and the function from an action theory and
-a designator to outcome descriptions."
+  "Designators of CLASS (:motion or :action) and TYPE, the events (name argument*) and failure
+classes that DESCRIBE-OUTCOMES, a function of an action theory and a designator, may mention."
   (class nil :type keyword :read-only t)
   (type nil :type keyword :read-only t)
+  (events '() :type list :read-only t)
+  (failures '() :type list :read-only t)
   (describe-outcomes #'identity :type function :read-only t))
 
 (defmethod print-object ((binding action-binding) stream)
@@ -76,10 +78,33 @@ perform returns."
     (format stream "~(~a~)~@[ ~a~]" (outcome-name outcome)
             (and (outcome-event outcome) (ec:atom-text (outcome-event outcome))))))
 
+(defun check-binding (domain binding)
+  "Signal ACTION-PROBLEM if BINDING mentions an event that the theory of DOMAIN does not have, or a
+failure that is none."
+  (flet ((problem (control &rest arguments)
+           (error 'action-problem :designator (format nil "The action binding ~(~a ~a~)"
+                                                      (action-binding-class binding)
+                                                      (action-binding-type binding))
+                                  :reason (apply #'format nil control arguments))))
+    (loop for (name . arguments) in (action-binding-events binding)
+          for declaration = (assoc (ec:name-keyword name)
+                                   (ec:theory-events (action-theory-theory domain)))
+          do (unless declaration
+               (problem "theory ~a has no event ~a"
+                        (ec:name-text (ec:theory-name (action-theory-theory domain)))
+                        (ec:name-text name)))
+             (unless (= (length arguments) (length (rest declaration)))
+               (problem "the event ~a takes ~d argument~:p, not ~d" (ec:name-text name)
+                        (length (rest declaration)) (length arguments))))
+    (dolist (failure (action-binding-failures binding))
+      (unless (subtypep failure 'plan:plan-failure)
+        (problem "~(~a~) is no plan failure" failure)))))
+
 (defun register-action (domain-name binding)
   "Make BINDING an action binding of the domain named DOMAIN-NAME, in place of an older one for the
-same designators.  Signals DOMAIN-NOT-FOUND."
+same designators.  Signals DOMAIN-NOT-FOUND and ACTION-PROBLEM."
   (let ((domain (find-action-theory domain-name)))
+    (check-binding domain binding)
     (setf (action-theory-actions domain)
           (cons binding
                 (remove-if (lambda (old)
@@ -89,7 +114,10 @@ same designators.  Signals DOMAIN-NOT-FOUND."
     binding))
 
 (defun find-action-binding (domain designator)
-  "Return the binding of DOMAIN for DESIGNATOR, or NIL."
+  "Return the binding of DOMAIN for DESIGNATOR, or NIL.  Signals ACTION-PROBLEM if DESIGNATOR is no
+designator."
+  (unless (typep designator 'plan:designator)
+    (error 'action-problem :designator designator :reason "it is no designator"))
   (find-if (lambda (binding)
              (and (eq (action-binding-class binding) (plan:designator-class-keyword designator))
                   (eq (action-binding-type binding) (plan:desig-prop-value designator :type))))
@@ -119,13 +147,32 @@ same designators.  Signals DOMAIN-NOT-FOUND."
                       ,@(loop for term in (rest form)
                               collect (term-template term properties))))))))
 
-  (defun clause-options (clauses)
+  (defun check-clauses (form clauses)
+    "Signal MALFORMED-PLAN-FORM unless CLAUSES of the DEFINE-ACTION FORM are what they should be."
+    (flet ((complain (expected)
+             (error 'plan:malformed-plan-form :form form :expected expected)))
+      (dolist (clause clauses)
+        (unless (and (consp clause)
+                     (member (first clause) '(:domain :event :requires :failure :returns)))
+          (complain "one of :domain, :event, :requires, :failure, :returns in each clause"))
+        (unless (if (eq (first clause) :failure)
+                    (and (symbolp (second clause)) (second clause) (evenp (length (cddr clause))))
+                    (= (length clause) 2))
+          (complain (format nil "one thing after ~(~s~)" (first clause)))))
+      (dolist (key '(:domain :event))
+        (unless (= 1 (count key clauses :key #'first))
+          (complain (format nil "exactly one clause (~(~s~) ...)" key))))
+      (dolist (event (clause-events clauses))
+        (unless (and (consp event) (symbolp (first event)))
+          (complain "an event such as (name term*)")))))
+
+  (defun clause-events (clauses)
+    "Return the events that CLAUSES of a DEFINE-ACTION mention."
     (loop for (key . arguments) in clauses
-          unless (member key '(:domain :event :requires :failure :returns))
-            do (error 'plan:malformed-plan-form
-                      :form (cons key arguments)
-                      :expected "one of :domain, :event, :requires, :failure, :returns")
-          collect (cons key arguments))))
+          for event = (case key
+                        (:event (first arguments))
+                        (:failure (getf (rest arguments) :event)))
+          when event collect event)))
 
 (defun term-of (value form designator)
   "Return VALUE, the value of FORM in a DEFINE-ACTION, if it can be an element of a sort."
@@ -141,7 +188,7 @@ same designators.  Signals DOMAIN-NOT-FOUND."
   (let ((pose (plan:designated-pose place)))
     (and pose (region-of-pose domain pose))))
 
-(defmacro define-action ((class type) properties &body clauses)
+(defmacro define-action (&whole form (class type) properties &body clauses)
   "Say what the designators of CLASS (motion or action) and TYPE mean in a domain.  PROPERTIES are
 bound to the designator's values of these keys.  CLAUSES:
   (:domain NAME)                the domain this belongs to
@@ -152,13 +199,10 @@ bound to the designator's values of these keys.  CLAUSES:
   (:returns form)               the value of perform
 A term that is a property or a list is evaluated; there, (region-of x) is the
 region of a pose or of a location designator."
-  (let* ((options (clause-options clauses))
-         (domain (second (assoc :domain options)))
-         (event (second (assoc :event options)))
-         (requires (second (assoc :requires options))))
-    (unless (and domain event)
-      (error 'plan:malformed-plan-form :form `(define-action (,class ,type))
-                                       :expected "clauses (:domain name) and (:event ...)"))
+  (check-clauses form clauses)
+  (let ((domain (second (assoc :domain clauses)))
+        (event (second (assoc :event clauses)))
+        (requires (second (assoc :requires clauses))))
     (flet ((event-form (event)
              (and event (formula-template event properties)))
            (condition-form (formula)
@@ -167,6 +211,8 @@ region of a pose or of a location designator."
         ',domain
         (make-action-binding
          :class ,(ec:name-keyword class) :type ,(ec:name-keyword type)
+         :events ',(clause-events clauses)
+         :failures ',(loop for (key failure) in clauses when (eq key :failure) collect failure)
          :describe-outcomes
          (lambda (domain designator)
            (declare (ignorable domain designator))
@@ -178,8 +224,8 @@ region of a pose or of a location designator."
                (declare (ignorable #'region-of))
                (list
                 (list :success ,(event-form event) ,(if requires (condition-form requires) t)
-                      ,(second (assoc :returns options)))
-                ,@(loop for (key name . arguments) in options
+                      ,(second (assoc :returns clauses)))
+                ,@(loop for (key name . arguments) in clauses
                         when (eq key :failure)
                           collect (destructuring-bind (&key (when nil whenp) event) arguments
                                     `(list ',name ,(event-form event)

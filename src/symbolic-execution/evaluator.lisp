@@ -16,22 +16,14 @@
   `(setf (gethash ',operator *analyzers*)
          (lambda (,form ,scope) (declare (ignorable ,scope)) ,@body)))
 
-(defclass interpreted-function (sb-mop:funcallable-standard-object)
-  ((name :initarg :name :initform nil :reader interpreted-function-name))
-  (:metaclass sb-mop:funcallable-standard-class)
-  (:documentation "A function whose body the evaluator runs; it may be given symbolic values."))
-
-(defmethod print-object ((function interpreted-function) stream)
-  (print-unreadable-object (function stream :type t :identity t)
-    (princ (interpreted-function-name function) stream)))
-
-(defun make-interpreted-function (name function)
-  (let ((instance (make-instance 'interpreted-function :name name)))
-    (sb-mop:set-funcallable-instance-function instance function)
-    instance))
-
 (defun unsupported (form reason)
-  (error 'unsupported-form :form form :reason reason :position (source:form-position form)))
+  "Signal UNSUPPORTED-FORM, past the plan's handlers if a plan runs."
+  (flet ((complain ()
+           (error 'unsupported-form :form form :reason reason
+                                    :position (source:form-position form))))
+    (if *path*
+        (outside-the-plan (*path*) (complain))
+        (complain))))
 
 (defun constant-closure (value)
   (lambda (frame) (declare (ignore frame)) value))
@@ -42,17 +34,20 @@
         ((atom form) (constant-closure form))
         ((consp (first form)) (analyze-lambda-call form scope))
         ((not (symbolp (first form))) (unsupported form "its operator is no symbol"))
-        ((function-address (first form) scope) (analyze-local-call form scope))
-        ((local-macro-p (first form) scope) (analyze-macro form scope))
+        ((local-kind (first form) scope)
+         (if (eq (local-kind (first form) scope) :macro)
+             (analyze-macro form scope)
+             (analyze-local-call form scope)))
         ((gethash (first form) *analyzers*) (funcall (gethash (first form) *analyzers*) form scope))
         ((special-operator-p (first form)) (unsupported form "an unknown special operator"))
         ((macro-function (first form)) (analyze-macro form scope))
         (t (analyze-global-call form scope))))
 
-(defun local-macro-p (symbol scope)
+(defun local-kind (symbol scope)
+  "Return :function or :macro if SYMBOL names a local one in SCOPE, else NIL."
   (multiple-value-bind (kind local)
       (sb-cltl2:function-information symbol (scope-environment scope))
-    (and (eq kind :macro) local)))
+    (and local kind)))
 
 (defun analyze-macro (form scope)
   (analyze (macroexpand-1 form (scope-environment scope)) scope))
@@ -88,9 +83,11 @@
 
 (defun call-function (function arguments description)
   "Call FUNCTION with ARGUMENTS; a compiled function gets no symbolic value."
-  (cond ((typep function 'interpreted-function) (apply function arguments))
-        ((notany #'symbolic-boolean-p arguments) (apply function arguments))
-        (t (apply function (mapcar (lambda (argument) (truth argument description)) arguments)))))
+  (apply function
+         (if (or (typep function 'interpreted-function)
+                 (null *path*) (not (path-symbolic-p *path*)))
+             arguments
+             (mapcar (lambda (argument) (decided argument description)) arguments))))
 
 (defun analyze-arguments (forms scope)
   (mapcar (lambda (form) (analyze form scope)) forms))
@@ -148,6 +145,9 @@
   "Return the interpreted function of PLAN."
   (or (gethash plan *interpreted-plans*)
       (setf (gethash plan *interpreted-plans*)
-            (funcall (analyze-lambda (plan:plan-name plan) (plan:plan-lambda-list plan)
-                                     (plan:plan-body plan) (make-scope))
-                     (vector nil)))))
+            (multiple-value-bind (forms declarations) (alexandria:parse-body (plan:plan-body plan))
+              (funcall (analyze-lambda (plan:plan-name plan) (plan:plan-lambda-list plan)
+                                       `(,@declarations
+                                         (block ,(plan:plan-name plan) ,@forms))
+                                       (make-scope))
+                       (vector nil))))))

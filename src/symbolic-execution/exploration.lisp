@@ -32,6 +32,8 @@
               :documentation "The number of paths that end because the theory allows no outcome.")
    (gaps :initform '() :accessor exploration-gaps
          :documentation "What was not explored: a list of sentences.")
+   (consistent :initform t :accessor exploration-consistent-p
+               :documentation "False if the theory allows no initial state at all.")
    (time :initform 0d0 :accessor exploration-time))
   (:documentation "A search for the traces of a plan on which a state constraint comes true."))
 
@@ -77,6 +79,10 @@
   "Return ARGUMENTS, a list of (parameter type), in the order of PLAN's lambda list.  Signals
 UNSUPPORTED-FORM for another type than boolean and for parameters that do not fit."
   (let ((required (alexandria:parse-ordinary-lambda-list (plan:plan-lambda-list plan))))
+    (unless (and (listp arguments) (every #'consp arguments) (every #'symbolp
+                                                                    (mapcar #'first arguments)))
+      (error 'unsupported-form :form arguments
+                               :reason "a list of (parameter type) was expected"))
     (unless (alexandria:set-equal required (mapcar #'first arguments) :test #'string=)
       (error 'unsupported-form
              :form (list* (plan:plan-name plan) (plan:plan-lambda-list plan))
@@ -100,20 +106,22 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
                          constraint
                          (ec:find-state-constraint constraint (action-theory-theory domain))))
          (arguments (symbolic-arguments plan arguments))
+         (formula (ec:ground-formula (action-theory-ground domain)
+                                     (ec:state-constraint-formula constraint)))
          (context (z3:make-context)))
     (make-instance 'exploration
                    :plan plan :domain domain :constraint constraint :arguments arguments
-                   :max-paths max-paths :max-steps max-steps :context context
-                   :solver (z3:make-solver context)
-                   :formula (ec:ground-formula (action-theory-ground domain)
-                                               (ec:state-constraint-formula constraint)))))
+                   :max-paths max-paths :max-steps max-steps :formula formula
+                   :context context :solver (z3:make-solver context))))
 
 (defun close-exploration (exploration)
   "Release the Z3 context of EXPLORATION; its traces stay."
   (z3:close-context (exploration-context exploration)))
 
 (defun run-plan-on (path function arguments)
-  "Call FUNCTION, the interpreted plan, with ARGUMENTS on PATH and note how the run ends."
+  "Call FUNCTION, the interpreted plan, with ARGUMENTS on PATH and note how the run ends.  Signals
+NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of the prefix."
+  (setf (path-handlers path) (plan:current-handlers))
   (let ((*random-state* (sb-ext:seed-random-state 0))
         (*gensym-counter* 0)
         (*standard-output* (make-broadcast-stream))
@@ -125,7 +133,11 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
                                   (setf (path-ending path) :finished))
                (plan:plan-failure (failure)
                  (setf (path-ending path) (type-of failure))))))
-      (undo-writes path))))
+      (undo-writes path)))
+  (when (path-prefix path)
+    (error 'nondeterministic-plan
+           :plan (path-plan path) :found "its end"
+           :expected (decision-description (first (path-prefix path))))))
 
 (defun run-path (exploration prefix)
   "Run the plan of EXPLORATION along PREFIX and return the trace of that path, or NIL."
@@ -137,14 +149,18 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
                              collect (z3:variable context (format nil "argument ~a" parameter))))
          (path (make-path :plan (plan:plan-name (exploration-plan exploration)) :domain domain
                           :solver solver :prefix prefix :states (list state)
+                          :symbolic-p (and propositions t)
                           :max-steps (exploration-max-steps exploration))))
     (loop for (nil . proposition) in (ec:initial-conditions state)
           do (assume path proposition))
-    (when (or prefix (eq (z3:check solver) :sat))
+    (unless (or prefix (eq (z3:check solver) :sat))
+      (setf (exploration-consistent-p exploration) nil))
+    (when (exploration-consistent-p exploration)
       (run-plan-on path (interpreted-plan (exploration-plan exploration))
                    (mapcar #'make-symbolic-boolean propositions))
-      (dolist (alternative (path-alternatives path))
-        (push alternative (exploration-pending exploration)))
+      ;; The deepest decision comes first: depth-first.
+      (setf (exploration-pending exploration)
+            (append (path-alternatives path) (exploration-pending exploration)))
       (case (path-ending path)
         (:dead-end (incf (exploration-dead-ends exploration)))
         (:too-many-steps
@@ -155,14 +171,21 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
                   propositions))))
 
 (defun next-path (exploration)
-  "Run the next pending path of EXPLORATION and return its trace, or NIL."
+  "Run the next pending path of EXPLORATION and return its trace, or NIL.  If the run is left by an
+error or an interrupt the path stays pending."
   (let ((start (foreign:monotonic-seconds))
-        (solver (exploration-solver exploration)))
-    (incf (exploration-paths exploration))
+        (solver (exploration-solver exploration))
+        (prefix (pop (exploration-pending exploration)))
+        (done nil))
     (z3:push-scope solver)
     (unwind-protect
-         (z3:with-released-terms ((exploration-context exploration))
-           (run-path exploration (pop (exploration-pending exploration))))
+         (multiple-value-prog1
+             (z3:with-released-terms ((exploration-context exploration))
+               (run-path exploration prefix))
+           (incf (exploration-paths exploration))
+           (setf done t))
+      (unless done
+        (push prefix (exploration-pending exploration)))
       (z3:pop-scope solver)
       (incf (exploration-time exploration) (- (foreign:monotonic-seconds) start)))))
 
@@ -181,10 +204,11 @@ twice.  Signals NONDETERMINISTIC-PLAN, UNSUPPORTED-FORM, SOLVER-UNKNOWN and what
                (return trace)))))
 
 (defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps)
-  "Return an EXPLORATION that has found every trace of PLAN in DOMAIN.  The options are those of
-MAKE-EXPLORATION."
+  "Return an EXPLORATION that has found every trace of PLAN in DOMAIN and holds no foreign memory.
+The options are those of MAKE-EXPLORATION."
   (declare (ignore constraint arguments max-paths max-steps))
   (let ((exploration (apply #'make-exploration plan domain (alexandria:remove-from-plist
                                                             options :domain))))
-    (loop while (next-trace exploration))
+    (unwind-protect (loop while (next-trace exploration))
+      (close-exploration exploration))
     exploration))

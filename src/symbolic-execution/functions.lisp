@@ -8,16 +8,20 @@
         append (loop for (kind . arguments) in specifiers
                      when (eq kind 'special) append arguments)))
 
+(defun globally-special-p (symbol)
+  (eq (sb-cltl2:variable-information symbol) :special))
+
 (defun declaration-specifiers (declarations)
-  "Return the SPECIAL specifiers of DECLARATIONS; the evaluator ignores the others."
-  (let ((specials (declared-specials declarations)))
+  "Return the SPECIAL specifiers of DECLARATIONS that say something new; the evaluator ignores the
+others."
+  (let ((specials (remove-if #'globally-special-p (declared-specials declarations))))
     (and specials `((special ,@specials)))))
 
 (defun special-variable-p (symbol declarations)
   "Return true if a binding of SYMBOL under DECLARATIONS is special: because of them or globally.  A
 declaration further out does not count."
   (or (member symbol (declared-specials declarations))
-      (eq (sb-cltl2:variable-information symbol) :special)))
+      (globally-special-p symbol)))
 
 (defun call-with-bindings (scope declarations names values body)
   "Return a closure that binds NAMES, in parallel, to the values of the closures VALUES and then
@@ -27,9 +31,8 @@ calls the closure that BODY, a function of the inner scope, returns."
          (lexicals (set-difference names specials))
          (lexicals (remove-if-not (lambda (name) (member name lexicals)) names))
          (inner (extend-scope scope (or lexicals (list (gensym)))
-                              :variable names
-                              :declare `((special ,@specials)
-                                         ,@(declaration-specifiers declarations))))
+                              :variable (remove-if #'globally-special-p names)
+                              :declare (declaration-specifiers declarations)))
          (run (funcall body inner))
          (size (1+ (max 1 (length lexicals))))
          (places (loop for name in names
@@ -43,8 +46,10 @@ calls the closure that BODY, a function of the inner scope, returns."
                   do (let ((value (funcall (the function value) frame)))
                        (if place
                            (setf (svref new place) value)
-                           (push value special-values))))
-            (progv specials (nreverse special-values) (funcall (the function run) new))))
+                           ;; Compiled code may read it.
+                           (push (decided value "a special variable") special-values))))
+            (with-forgotten-writes (specials)
+              (progv specials (nreverse special-values) (funcall (the function run) new)))))
         (lambda (frame)
           (let ((new (make-array size :initial-element nil)))
             (setf (svref new 0) frame)

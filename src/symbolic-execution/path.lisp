@@ -13,7 +13,9 @@
   (description "" :type string :read-only t))
 
 (defstruct (path (:copier nil))
-  "A symbolic run.  Lists are in reverse order but for PREFIX, what is still to be repeated."
+  "A symbolic run.  Lists are in reverse order but for PREFIX, what is still to be repeated.
+SYMBOLIC-P is true if the plan has symbolic arguments; HANDLERS are the condition handlers outside
+of the plan."
   (plan nil :read-only t)
   (domain nil :type action-theory :read-only t)
   (solver nil :read-only t)
@@ -24,15 +26,32 @@
   (steps '() :type list)
   (journal '() :type list)
   (max-steps 1000 :type (integer 0) :read-only t)
+  (symbolic-p nil :type boolean :read-only t)
+  (handlers nil)
   (ending nil))
 
 (defvar *path* nil
   "The path of the symbolic run in progress.")
 
 (defun abandon (path ending)
-  "Leave the run of PATH; ENDING, a keyword, says why."
-  (setf (path-ending path) ending)
+  "Leave the run of PATH; ENDING, a keyword, says why.  If the run is being left already, which the
+plan's cleanup forms may not notice, that goes on."
+  (unless (path-ending path)
+    (setf (path-ending path) ending))
   (throw path nil))
+
+(defmacro outside-the-plan ((path) &body body)
+  "Evaluate BODY, which is no business of the plan: its errors are for handlers from outside, and
+if they unwind the run counts as ended, so that no cleanup form of the plan runs."
+  (let ((run (gensym "PATH")))
+    `(let ((,run ,path))
+       (plan:with-handlers ((path-handlers ,run))
+         (handler-bind ((error (lambda (condition)
+                                 (declare (ignore condition))
+                                 (setf (path-ending ,run) :error))))
+           (multiple-value-prog1 (progn ,@body)
+             (when (eq (path-ending ,run) :error)
+               (setf (path-ending ,run) nil))))))))
 
 (defun assume (path proposition)
   (z3:solver-assert (path-solver path) proposition))
@@ -55,29 +74,42 @@ are EXHAUSTIVE and all but the last are impossible the last one need not be aske
             do (push number possible))
     (nreverse possible)))
 
+(defun recorded-choice (path description options)
+  "Take the next decision of PATH's prefix and return its choice, or NIL if all are repeated.
+Signals NONDETERMINISTIC-PLAN if another decision is met than the recorded one."
+  (let ((recorded (pop (path-prefix path))))
+    (when recorded
+      (unless (and (string= (decision-description recorded) description)
+                   (< (decision-choice recorded) (length options)))
+        (error 'nondeterministic-plan :plan (path-plan path) :found description
+                                      :expected (decision-description recorded)))
+      (decision-choice recorded))))
+
+(defun note-alternatives (path description numbers)
+  "Note prefixes that go on with each of NUMBERS, so that the first of them comes first."
+  (dolist (number (reverse numbers))
+    (push (reverse (cons (make-decision number description) (path-decisions path)))
+          (path-alternatives path))))
+
 (defun decide (path description options &key exhaustive)
   "Return the choice of one of OPTIONS, a list of (choice . proposition), and assume its
 proposition.  The other possible ones are noted as alternatives.  EXHAUSTIVE: one of the
 propositions is true in any case.  Abandons PATH if none is possible."
-  (let ((recorded (pop (path-prefix path))))
-    (when (and recorded (string/= (decision-description recorded) description))
-      (error 'nondeterministic-plan :plan (path-plan path) :found description
-                                    :expected (decision-description recorded)))
-    (let* ((possible (if recorded
-                         (list (decision-choice recorded))
+  (outside-the-plan (path)
+    (let* ((recorded (recorded-choice path description options))
+           (possible (if recorded
+                         (list recorded)
                          (possible-options path options exhaustive)))
            (taken (first possible)))
       (unless possible
         (abandon path :dead-end))
-      (dolist (other (rest possible))
-        (push (reverse (cons (make-decision other description) (path-decisions path)))
-              (path-alternatives path)))
+      (note-alternatives path description (rest possible))
       (push (make-decision taken description) (path-decisions path))
       (destructuring-bind (choice . proposition) (nth taken options)
         (assume path proposition)
         choice))))
 
-;;; Symbolic booleans
+;;; Symbolic booleans, and the functions that may be given some
 
 (defstruct (symbolic-boolean (:constructor make-symbolic-boolean (proposition)) (:copier nil))
   "A truth value that depends on the initial state or on symbolic arguments of the plan."
@@ -96,17 +128,62 @@ propositions is true in any case.  Abandons PATH if none is possible."
                 :exhaustive t))
       value))
 
-;;; Side effects on global variables are undone between runs.
+(defclass interpreted-function (sb-mop:funcallable-standard-object)
+  ((name :initarg :name :initform nil :reader interpreted-function-name))
+  (:metaclass sb-mop:funcallable-standard-class)
+  (:documentation "A function whose body the evaluator runs; it may be given symbolic values."))
+
+(defmethod print-object ((function interpreted-function) stream)
+  (print-unreadable-object (function stream :type t :identity t)
+    (princ (interpreted-function-name function) stream)))
+
+(defun make-interpreted-function (name function)
+  (let ((instance (make-instance 'interpreted-function :name name)))
+    (sb-mop:set-funcallable-instance-function instance function)
+    instance))
+
+(defun decided (value description)
+  "Return VALUE with every symbolic boolean in it decided, for code that cannot handle one: in
+conses, which the list of an &rest parameter may be, and in what an interpreted function returns."
+  (typecase value
+    (symbolic-boolean (truth value description))
+    (cons (let ((head (decided (car value) description))
+                (tail (decided (cdr value) description)))
+            (if (and (eq head (car value)) (eq tail (cdr value)))
+                value
+                (cons head tail))))
+    (interpreted-function
+     (lambda (&rest arguments)
+       (let ((values (multiple-value-list (apply value arguments))))
+         (values-list (cons (truth (first values) description) (rest values))))))
+    (t value)))
+
+;;; Side effects on global variables are undone between runs.  The journal is a list of
+;;; (symbol . restoring function).  A write to a variable that the plan has bound itself is forgotten
+;;; when the binding ends.
 
 (defun note-write (symbol)
-  "Remember the global value of SYMBOL, so that it can be restored after the run."
+  "Remember the value of SYMBOL, so that it can be restored after the run."
   (when *path*
-    (push (if (boundp symbol)
-              (let ((value (symbol-value symbol)))
-                (lambda () (setf (symbol-value symbol) value)))
-              (lambda () (makunbound symbol)))
+    (push (cons symbol
+                (if (boundp symbol)
+                    (let ((value (symbol-value symbol)))
+                      (lambda () (setf (symbol-value symbol) value)))
+                    (lambda () (makunbound symbol))))
           (path-journal *path*))))
 
+(defmacro with-forgotten-writes ((symbols) &body body)
+  "Evaluate BODY, in which SYMBOLS are bound, and forget the writes to them in it."
+  (let ((mark (gensym "MARK")) (names (gensym "SYMBOLS")))
+    `(let ((,mark (and *path* (path-journal *path*)))
+           (,names ,symbols))
+       (unwind-protect (progn ,@body)
+         (when *path*
+           (setf (path-journal *path*)
+                 (append (remove-if (lambda (entry) (member (car entry) ,names))
+                                    (ldiff (path-journal *path*) ,mark))
+                         ,mark)))))))
+
 (defun undo-writes (path)
-  (mapc #'funcall (path-journal path))
+  (loop for (nil . restore) in (path-journal path) do (funcall restore))
   (setf (path-journal path) '()))

@@ -21,8 +21,7 @@ NIL, the outcome (:SUCCESS or a failure class) and the source position of the pe
 (defun outcome-transition (domain state outcome)
   "Return the state after OUTCOME of an action in STATE and the list of (axiom . proposition) that
 must be true for it."
-  (let ((event (and (outcome-event outcome)
-                    (ec:find-event (action-theory-ground domain) (outcome-event outcome))))
+  (let ((event (ec:event-number (action-theory-ground domain) (outcome-event outcome)))
         (condition (ec:holds (outcome-condition outcome) (list state))))
     (multiple-value-bind (next conditions) (ec:progress state event)
       (values next (if (eq condition t) conditions (acons nil condition conditions))))))
@@ -45,9 +44,11 @@ must be true for it."
       outcome)))
 
 (defmethod plan:perform-with ((path path) designator position)
+  (when (path-ending path)
+    (abandon path (path-ending path)))
   (when (>= (length (path-steps path)) (path-max-steps path))
     (abandon path :too-many-steps))
-  (let ((outcome (take-step path designator position)))
+  (let ((outcome (outside-the-plan (path) (take-step path designator position))))
     (if (eq (outcome-name outcome) :success)
         (outcome-value outcome)
         (plan:fail (outcome-name outcome)))))

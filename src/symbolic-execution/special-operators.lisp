@@ -24,6 +24,12 @@
 (define-analyzer sb-ext:truly-the (form scope)
   (analyze (third form) scope))
 
+(define-analyzer sb-kernel:the* (form scope)
+  (analyze (third form) scope))
+
+(define-analyzer sb-c::with-source-form (form scope)
+  (analyze-body (cddr form) scope))
+
 (define-analyzer eval-when (form scope)
   (if (intersection (second form) '(:execute eval))
       (analyze-body (cddr form) scope)
@@ -74,7 +80,7 @@
       (let ((writer (multiple-value-call #'frame-writer (variable-address name scope))))
         (lambda (frame) (funcall writer frame (funcall (the function value) frame))))
       (lambda (frame)
-        (let ((new (funcall (the function value) frame)))
+        (let ((new (decided (funcall (the function value) frame) "a special variable")))
           (note-write name)
           (setf (symbol-value name) new)))))
 
@@ -92,9 +98,11 @@
    (alexandria:parse-body (cddr form))
    (extend-scope scope '()
                  :macro (loop for (name lambda-list . body) in (second form)
-                              collect (list name (compile nil (sb-cltl2:parse-macro
-                                                               name lambda-list body
-                                                               (scope-environment scope))))))))
+                              collect (list name
+                                            (sb-cltl2:enclose
+                                             (sb-cltl2:parse-macro name lambda-list body
+                                                                   (scope-environment scope))
+                                             (scope-environment scope)))))))
 
 ;;; Functions
 
@@ -104,7 +112,9 @@
            (analyze-lambda nil (second name) (cddr name) scope))
           ((and (consp name) (eq (first name) 'sb-int:named-lambda))
            (analyze-lambda (second name) (third name) (cdddr name) scope))
-          ((function-address name scope)
+          ((if (symbolp name)
+               (eq (local-kind name scope) :function)
+               (function-address name scope))
            (multiple-value-call #'frame-reader (function-address name scope)))
           (t (lambda (frame) (declare (ignore frame)) (global-function name))))))
 
@@ -206,7 +216,10 @@
   (let ((names (analyze (second form) scope)) (values (analyze (third form) scope))
         (run (analyze-body (cdddr form) scope)))
     (lambda (frame)
-      (progv (funcall names frame) (funcall values frame) (funcall run frame)))))
+      (let ((names (funcall names frame)))
+        (with-forgotten-writes (names)
+          (progv names (decided (funcall values frame) "a special variable")
+            (funcall run frame)))))))
 
 ;;; Multiple values
 

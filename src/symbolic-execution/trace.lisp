@@ -32,15 +32,18 @@ plan's."
 
 (defun step-text (step)
   "Return the text of STEP's event and outcome."
-  (format nil "~:[nothing happens~;~:*~a~], ~(~a~)"
-          (and (step-event step) (ec:atom-text (step-event step))) (step-outcome step)))
+  (format nil "~:[nothing happens~;~:*~a~], ~a"
+          (and (step-event step) (ec:atom-text (step-event step)))
+          (ec:name-text (step-outcome step))))
 
 (defun trace-text (trace)
   "Return a text that is the same for two traces if and only if plan, arguments, initial state,
 events and outcomes are."
-  (format nil "~(~a~) ~s~%~{~a~%~}~{~a~%~}" (trace-plan trace) (trace-arguments trace)
-          (mapcar #'ec:atom-text (ec:state-fluents (trace-initial-state trace)))
-          (mapcar #'step-text (trace-steps trace))))
+  (with-standard-io-syntax
+    (format nil "~(~a~) ~s~%~{~a~%~}~{~a~%~}" (symbol-name (trace-plan trace))
+            (trace-arguments trace)
+            (mapcar #'ec:atom-text (ec:state-fluents (trace-initial-state trace)))
+            (mapcar #'step-text (trace-steps trace)))))
 
 (defun least-values (solver propositions)
   "Return the least list of truth values of PROPOSITIONS that the SOLVER allows, and add them to
@@ -55,18 +58,15 @@ its assertions."
   (let* ((ground (ec:state-ground initial-state))
          (states (list initial-state)))
     (dolist (step steps (nreverse states))
-      (push (ec:progress (first states)
-                         (and (step-event step) (ec:find-event ground (step-event step))))
-            states))))
+      (push (ec:progress (first states) (ec:event-number ground (step-event step))) states))))
 
 (defun instance-time (path formula span)
   "Return the last timepoint at which the ground FORMULA of a state constraint can be true on PATH,
 and its proposition there; or NIL."
   (let ((states (reverse (path-states path)))
         (events (loop for step in (reverse (path-steps path))
-                      collect (and (step-event step)
-                                   (ec:find-event (action-theory-ground (path-domain path))
-                                                  (step-event step))))))
+                      collect (ec:event-number (action-theory-ground (path-domain path))
+                                               (step-event step)))))
     (loop for time from (- (length states) span 1) downto 0
           for proposition = (ec:holds formula (nthcdr time states) (or (nthcdr time events) '(nil)))
           when (possible-p path proposition)

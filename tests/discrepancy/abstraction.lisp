@@ -32,7 +32,12 @@
 (test malformed-abstractions-are-named
   (abstraction-problem-of (:region r3 (interval :x 1 1)) "r3" "no volume")
   (abstraction-problem-of (:region r3 (interval :x 5 4)) "r3" "no volume")
-  (abstraction-problem-of (:region r3 (interval :x 0.5 1.5)) "overlap")
+  (signals-with (discrepancy:abstraction-error "abstraction bad" "r1 and r2 overlap")
+    (discrepancy::parse-abstraction
+     'bad '((:theory "theory.lisp") (:scene "scene.lisp")
+            (:region r1 (interval :x 0 1.1)) (:region r2 (interval :x 1 2))
+            (:placement (box-in ?region) :body box :coordinates (x)))
+     :file (root-file "models/two-regions/domain.lisp")))
   (abstraction-problem-of (:region r3 (interval :w 3 4)) "axis")
   (abstraction-problem-of (:region r3 (sphere 1)) "sphere is no kind of region")
   (abstraction-problem-of (:region) "(:region name")

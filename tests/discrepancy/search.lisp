@@ -73,7 +73,8 @@
                    :steps (list (first steps)
                                 (discrepancy::make-run-step
                                  :designator (discrepancy:run-step-designator (second steps))
-                                 :outcome 'plan:manipulation-pose-unreachable :allowed allowed
+                                 :outcome 'plan:manipulation-pose-unreachable
+                                 :candidates (list allowed)
                                  :state (discrepancy:run-step-state (second steps)))))))
     (is (eq :left-trace (discrepancy:judgement-verdict
                          (discrepancy:judge-run (two-regions) lenient trace))))))
@@ -87,7 +88,7 @@
                  :initial-state (discrepancy:run-initial-state run)
                  :steps (cons (discrepancy::make-run-step
                                :designator (discrepancy:run-step-designator (first steps))
-                               :allowed (discrepancy::run-step-allowed (first steps))
+                               :candidates (discrepancy::run-step-candidates (first steps))
                                :state (discrepancy:run-initial-state run))
                               (rest steps))))
          (final (discrepancy:judge-run (two-regions) wrong trace))
@@ -175,3 +176,55 @@
     (signals df:invalid-argument
       (df:run-plan 'discrepancy-finder-user::move-the-box :domain :two-regions
                                                           :state '((:box :w 1.3))))))
+
+(test one-of-several-fitting-outcomes-is-enough
+  "Two failure clauses of the same class, of which the second one applies: no discrepancy."
+  (let* ((trace (example-trace))
+         (bad (run-of trace 0.5 0.5 0 1.9 0.4 0))
+         (steps (discrepancy:run-steps bad)))
+    (flet ((verdict (&rest conditions)
+             (discrepancy:judgement-verdict
+              (discrepancy:judge-run
+               (two-regions)
+               (discrepancy::make-run
+                :initial-state (discrepancy:run-initial-state bad)
+                :steps (list (first steps)
+                             (discrepancy::make-run-step
+                              :designator (discrepancy:run-step-designator (second steps))
+                              :candidates (loop for condition in conditions
+                                                collect (symbolic::make-outcome
+                                                         :name 'plan:manipulation-pose-unreachable
+                                                         :condition condition))
+                              :state (discrepancy:run-step-state (second steps)))))
+               trace))))
+      (is (eq :discrepancy (verdict nil nil)))
+      (is (eq :left-trace (verdict nil t)))
+      (is (eq :left-trace (verdict t nil))))))
+
+(defparameter *odd-plans* "
+(def-top-level-cram-function tidy-plan ()
+  (unwind-protect (drive-to (make-pose (+ 1.2 (random 0.5)) 0 0))
+    (drive-to (make-pose 0.5 0 0))))
+(def-top-level-cram-function endless-plan ()
+  (loop (drive-to (make-pose 0.5 0 0))))
+(def-top-level-cram-function careless-plan ()
+  (handler-case (perform (a motion (type dancing))) (error () nil)))
+(def-top-level-cram-function dividing-plan (x)
+  (handler-case (/ 1d0 x) (division-by-zero () (drive-to (make-pose 1.5 0 0)))))
+")
+
+(test plans-with-odd-habits
+  (discrepancy:ensure-plan 'discrepancy-finder-user::move-the-box)
+  (with-file (file *odd-plans*)
+    (plan:load-plan file)
+    (flet ((run-odd (name &rest arguments)
+             (df:run-plan (find-symbol name '#:discrepancy-finder-user)
+                          :domain :two-regions :arguments arguments)))
+      (is (= (df:run-hash (run-odd "TIDY-PLAN")) (df:run-hash (run-odd "TIDY-PLAN")))
+          "random numbers are the same in every run")
+      (let ((discrepancy::*step-limit* 5))
+        (is (eq :too-many-steps (discrepancy:run-ending (run-odd "ENDLESS-PLAN")))))
+      (signals symbolic:action-problem (run-odd "CARELESS-PLAN"))
+      (is (= 1 (length (df:run-steps (run-odd "DIVIDING-PLAN" 0d0))))
+          "the plan has the float traps of Lisp")
+      (signals df:invalid-argument (run-odd "DIVIDING-PLAN")))))
