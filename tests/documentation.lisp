@@ -37,21 +37,6 @@
                    (some #'walk (sb-mop:class-direct-subclasses class)))))
       (walk (find-class 'condition)))))
 
-(defun structure-function-p (symbol)
-  "Return true if SYMBOL is a reader, the predicate or the constructor of a documented structure: its
-documentation names its slots."
-  (loop for package in (layer-packages)
-          thereis
-          (loop for class being the symbols of package
-                  thereis (and (find-class class nil)
-                               (typep (find-class class) 'structure-class)
-                               (documentation class 'structure)
-                               (let ((structure (sb-kernel:find-defstruct-description class)))
-                                 (or (find symbol (sb-kernel:dd-slots structure)
-                                           :key #'sb-kernel:dsd-accessor-name)
-                                     (eq symbol (sb-kernel::dd-predicate-name structure))
-                                     (assoc symbol (sb-kernel::dd-constructors structure))))))))
-
 (defun restart-name-p (symbol)
   "The names of restarts are explained where they are offered."
   (member symbol '(df:continue-search df:next-trace df:accept
@@ -62,7 +47,6 @@ documentation names its slots."
             '(function variable type structure compiler-macro))
       (slot-documentation-of symbol)
       (condition-reader-p symbol)
-      (structure-function-p symbol)
       (restart-name-p symbol)
       ;; Words of designators, such as (a motion ...).
       (member symbol '(plan:action plan:motion plan:object plan:location))))

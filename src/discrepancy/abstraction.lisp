@@ -13,6 +13,11 @@
   (name nil :type keyword :read-only t)
   (bounds '() :type list :read-only t))
 
+(setf (documentation 'region-name 'function)
+      "Return the name of a region, a keyword."
+      (documentation 'region-bounds 'function)
+      "Return the bounds of a region: a list of (axis min max).")
+
 (defmethod print-object ((region region) stream)
   (print-unreadable-object (region stream :type t)
     (format stream "~a~{ ~(~a~) in [~a, ~a[~}" (ec:name-text (region-name region))

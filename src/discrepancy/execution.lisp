@@ -22,6 +22,15 @@ words, STATE what was observed afterwards."
   (position nil :read-only t)
   (state '() :type list :read-only t))
 
+(setf (documentation 'run-step-designator 'function)
+      "Return the designator that was performed in a step."
+      (documentation 'run-step-outcome 'function)
+      "Return the outcome of a step: :SUCCESS or the class of the failure."
+      (documentation 'run-step-failure 'function)
+      "Return the failure of a step in words, or NIL."
+      (documentation 'run-step-state 'function)
+      "Return what was observed after a step: a list of (atom . truth).")
+
 (defmethod print-object ((step run-step) stream)
   (print-unreadable-object (step stream :type t)
     (format stream "~a -> ~(~a~)" (run-step-designator step) (run-step-outcome step))))
@@ -38,6 +47,24 @@ is :TRACE-DONE, :LEFT-TRACE, :FINISHED, :TOO-MANY-STEPS or the class of an unhan
   (final-values #() :type vector :read-only t)
   (hash 0 :type (unsigned-byte 64) :read-only t)
   (seconds 0d0 :type double-float :read-only t))
+
+(setf (documentation 'run-validity 'function)
+      "Return :VALID, or a sentence that says why the sample of a run is not valid."
+      (documentation 'run-ending 'function)
+      "Return how a run ended: :TRACE-DONE, :LEFT-TRACE, :FINISHED, :TOO-MANY-STEPS, :NOT-RUN or
+the class of an unhandled failure."
+      (documentation 'run-initial-state 'function)
+      "Return what was observed at the beginning of a run: a list of (atom . truth)."
+      (documentation 'run-steps 'function)
+      "Return the list of the steps of a run."
+      (documentation 'run-final-state 'function)
+      "Return what was observed at the end of a run: a list of (atom . truth)."
+      (documentation 'run-final-values 'function)
+      "Return the vector of the final parameters of a run (m, rad)."
+      (documentation 'run-hash 'function)
+      "Return the hash of the bits of the final state of a run."
+      (documentation 'run-seconds 'function)
+      "Return the simulated time (s) of a run.")
 
 (defmethod print-object ((run run) stream)
   (print-unreadable-object (run stream :type t)

@@ -16,6 +16,15 @@ list of (atom theory-value simulation-value)."
   (kind :state :type (member :outcome :state) :read-only t)
   (fluents '() :type list :read-only t))
 
+(setf (documentation 'divergence-step 'function)
+      "Return the number of the step of a divergence, counted from 0."
+      (documentation 'divergence-kind 'function)
+      "Return :OUTCOME if the theory forbids the outcome of the step, :STATE if it forbids the
+state after it."
+      (documentation 'divergence-fluents 'function)
+      "Return the fluents in which theory and simulation part: a list of (atom theory-value
+simulation-value).")
+
 (defmethod print-object ((divergence divergence) stream)
   (print-unreadable-object (divergence stream :type t)
     (format stream "at step ~d (~(~a~))~{ ~a~}" (1+ (divergence-step divergence))
@@ -27,6 +36,11 @@ list of (atom theory-value simulation-value)."
 consistent run may have one that healed."
   (verdict :consistent :type (member :discrepancy :left-trace :consistent) :read-only t)
   (divergence nil :type (or null divergence) :read-only t))
+
+(setf (documentation 'judgement-verdict 'function)
+      "Return :DISCREPANCY, :LEFT-TRACE or :CONSISTENT."
+      (documentation 'judgement-divergence 'function)
+      "Return the first divergence of a run, or NIL.")
 
 (defmethod print-object ((judgement judgement) stream)
   (print-unreadable-object (judgement stream :type t)

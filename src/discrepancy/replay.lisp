@@ -123,6 +123,11 @@ discrepancies/, under a name made of plan, seed and state hash."
   (recorded-hash 0 :type (unsigned-byte 64) :read-only t)
   (changed-files '() :type list :read-only t))
 
+(setf (documentation 'replay-status 'function)
+      "Return :SAME-BITS, :SAME-VERDICT (other bits) or :OTHER-VERDICT."
+      (documentation 'replay-discrepancy 'function)
+      "Return the discrepancy that shows again, or NIL.")
+
 (defun replay-verdict (result)
   "Return the verdict on the replayed run: :DISCREPANCY, :CONSISTENT, :LEFT-TRACE, or :INVALID if
 the initial state is not one of the trace any more."

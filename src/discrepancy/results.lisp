@@ -18,6 +18,25 @@
   (confirmed-p nil :type boolean :read-only t)
   (file nil :type (or null string)))
 
+(setf (documentation 'discrepancy-plan 'function)
+      "Return the plan, a PLAN."
+      (documentation 'discrepancy-parameters 'function)
+      "Return the property list of the scene parameters that differ from the scene's."
+      (documentation 'discrepancy-seed 'function)
+      "Return the seed of the sample."
+      (documentation 'discrepancy-trace 'function)
+      "Return the execution trace."
+      (documentation 'discrepancy-sample 'function)
+      "Return the sample from which the simulation does what the theory does not allow."
+      (documentation 'discrepancy-run 'function)
+      "Return the run of that sample."
+      (documentation 'discrepancy-judgement 'function)
+      "Return the judgement on that run."
+      (documentation 'discrepancy-confirmed-p 'function)
+      "Return true if a second run had the same bits."
+      (documentation 'discrepancy-file 'function)
+      "Return the name of the file in which a discrepancy is stored, or NIL.")
+
 (defun discrepancy-summary (discrepancy)
   "Return where theory and simulation part in DISCREPANCY, as a clause."
   (let* ((divergence (judgement-divergence (discrepancy-judgement discrepancy)))
@@ -43,6 +62,19 @@
   (rejected 0 :type (integer 0) :read-only t)
   (left-trace 0 :type (integer 0) :read-only t)
   (discrepancies '() :type list :read-only t))
+
+(setf (documentation 'trace-result-trace 'function)
+      "Return the execution trace."
+      (documentation 'trace-result-status 'function)
+      "Return :CERTIFIED, :DISCREPANCY, :UNDECIDED or :SKIPPED."
+      (documentation 'trace-result-reason 'function)
+      "Return why a trace has its status, as a clause."
+      (documentation 'trace-result-verdict 'function)
+      "Return the last verdict of the confidence rule, or NIL."
+      (documentation 'trace-result-samples 'function)
+      "Return the number of samples that the theory allows."
+      (documentation 'trace-result-rejected 'function)
+      "Return the number of samples that were not valid.")
 
 (defmethod print-object ((result trace-result) stream)
   (print-unreadable-object (result stream :type t)

@@ -15,6 +15,11 @@
   (min 0d0 :type double-float :read-only t)
   (max 0d0 :type double-float :read-only t))
 
+(setf (documentation 'parameter-min 'function)
+      "Return the least value of a parameter (m, rad)."
+      (documentation 'parameter-max 'function)
+      "Return the bound (m, rad) that the values of a parameter do not reach.")
+
 (defun parameter-name (parameter)
   "Return the name of PARAMETER, such as \"box.x\"."
   (format nil "~a.~(~a~)" (ec:name-text (parameter-body parameter)) (parameter-axis parameter)))
@@ -29,6 +34,11 @@
   (index 0 :type (integer 0) :read-only t)
   (parameters '() :type list :read-only t)
   (values #() :type vector :read-only t))
+
+(setf (documentation 'sample-index 'function)
+      "Return the number of a sample, counted from 0."
+      (documentation 'sample-values 'function)
+      "Return the vector of the values of a sample (m, rad), in the order of its parameters.")
 
 (defun axis-unit (axis)
   (if (eq axis :yaw) "rad" "m"))

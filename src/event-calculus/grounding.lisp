@@ -21,6 +21,13 @@
   (state-sentences '() :type list)
   (step-sentences '() :type list))
 
+(setf (documentation 'ground-theory-theory 'function)
+      "Return the theory that was made ground."
+      (documentation 'ground-theory-fluents 'function)
+      "Return the vector of the ground fluents, each a list of keywords."
+      (documentation 'ground-theory-events 'function)
+      "Return the vector of the ground events, each a list of keywords.")
+
 (defmethod print-object ((ground ground-theory) stream)
   (print-unreadable-object (ground stream :type t)
     (format stream "~a: ~d ground fluent~:p, ~d ground event~:p"

@@ -17,6 +17,13 @@
   (time 0 :type (integer 0) :read-only t)
   (values #() :type simple-vector :read-only t))
 
+(setf (documentation 'state-ground 'function)
+      "Return the ground theory of a state."
+      (documentation 'state-time 'function)
+      "Return the timepoint of a state, counted from 0."
+      (documentation 'state-values 'function)
+      "Return the vector of the propositions of a state, in the order of the ground fluents.")
+
 (defmethod print-object ((state state) stream)
   (print-unreadable-object (state stream :type t)
     (format stream "at ~d~{ ~a~}" (state-time state)

@@ -14,6 +14,19 @@
   (documentation nil :type (or null string) :read-only t)
   (span 0 :type (integer 0) :read-only t))
 
+(setf (documentation 'state-constraint-p 'function)
+      "Return true if its argument is a STATE-CONSTRAINT."
+      (documentation 'state-constraint-name 'function)
+      "Return the name of a state constraint, a keyword."
+      (documentation 'state-constraint-theory 'function)
+      "Return the theory of a state constraint."
+      (documentation 'state-constraint-formula 'function)
+      "Return the formula of a state constraint, a tree of keywords."
+      (documentation 'state-constraint-documentation 'function)
+      "Return the documentation string of a state constraint, or NIL."
+      (documentation 'state-constraint-span 'function)
+      "Return the number of timepoints after ?time that a state constraint looks at.")
+
 (defmethod print-object ((constraint state-constraint) stream)
   (print-unreadable-object (constraint stream :type t)
     (format stream "~a of ~a" (name-text (state-constraint-name constraint))

@@ -12,6 +12,11 @@
   (formula nil :type list :read-only t)
   (position nil :type (or null source:source-position) :read-only t))
 
+(setf (documentation 'axiom-name 'function)
+      "Return the name of an axiom, a keyword."
+      (documentation 'axiom-formula 'function)
+      "Return the formula of an axiom, a tree of keywords.")
+
 (defmethod print-object ((axiom axiom) stream)
   (print-unreadable-object (axiom stream :type t)
     (format stream "~a" (name-text (axiom-name axiom)))))
@@ -26,6 +31,23 @@
   (axioms '() :type list)
   (state-constraints '() :type list)
   (file nil :type (or null string) :read-only t))
+
+(setf (documentation 'theory-name 'function)
+      "Return the name of a theory, a keyword."
+      (documentation 'theory-documentation 'function)
+      "Return the documentation string of a theory, or NIL."
+      (documentation 'theory-sorts 'function)
+      "Return the sorts of a theory: a list of (name element*)."
+      (documentation 'theory-fluents 'function)
+      "Return the fluents of a theory: a list of (name argument-sort*)."
+      (documentation 'theory-events 'function)
+      "Return the events of a theory: a list of (name argument-sort*)."
+      (documentation 'theory-axioms 'function)
+      "Return the list of the axioms of a theory."
+      (documentation 'theory-state-constraints 'function)
+      "Return the list of the state constraints of a theory."
+      (documentation 'theory-file 'function)
+      "Return the name of the file that a theory was read from, or NIL.")
 
 (defmethod print-object ((theory theory) stream)
   (print-unreadable-object (theory stream :type t)

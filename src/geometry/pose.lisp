@@ -23,6 +23,23 @@ prints as, so that 0.1 typed at a REPL that reads single floats means 0.1d0."
   (qz 0d0 :type double-float :read-only t)
   (qw 1d0 :type double-float :read-only t))
 
+(setf (documentation 'pose-p 'function)
+      "Return true if its argument is a POSE."
+      (documentation 'pose-x 'function)
+      "Return the x coordinate (m) of a pose."
+      (documentation 'pose-y 'function)
+      "Return the y coordinate (m) of a pose."
+      (documentation 'pose-z 'function)
+      "Return the z coordinate (m) of a pose."
+      (documentation 'pose-qx 'function)
+      "Return the x part of the unit quaternion of a pose."
+      (documentation 'pose-qy 'function)
+      "Return the y part of the unit quaternion of a pose."
+      (documentation 'pose-qz 'function)
+      "Return the z part of the unit quaternion of a pose."
+      (documentation 'pose-qw 'function)
+      "Return the real part of the unit quaternion of a pose.")
+
 (defmethod print-object ((pose pose) stream)
   (print-unreadable-object (pose stream :type t)
     (format stream "x ~,3f y ~,3f z ~,3f yaw ~,3f"

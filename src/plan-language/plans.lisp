@@ -15,6 +15,19 @@
   (top-level-p nil :type boolean :read-only t)
   (position nil :type (or null source:source-position) :read-only t))
 
+(setf (documentation 'plan-name 'function)
+      "Return the symbol that names a plan."
+      (documentation 'plan-lambda-list 'function)
+      "Return the lambda list of a plan."
+      (documentation 'plan-body 'function)
+      "Return the list of the declarations and forms of a plan."
+      (documentation 'plan-documentation 'function)
+      "Return the documentation string of a plan, or NIL."
+      (documentation 'plan-top-level-p 'function)
+      "Return true if a plan runs in a top-level of its own."
+      (documentation 'plan-position 'function)
+      "Return the source position of a plan, or NIL if it was not loaded by LOAD-PLAN.")
+
 (defmethod print-object ((plan plan) stream)
   (print-unreadable-object (plan stream :type t)
     (format stream "~(~a~)~@[ at ~a~]" (plan-name plan)

@@ -27,6 +27,13 @@
   (parts '() :type list :read-only t)
   (parameters '() :type list :read-only t))
 
+(setf (documentation 'scene-name 'function)
+      "Return the name of a scene, a keyword."
+      (documentation 'scene-file 'function)
+      "Return the name of the file of a scene."
+      (documentation 'scene-parameters 'function)
+      "Return the parameters of a scene: a list of (name value [documentation]).")
+
 (defmethod print-object ((scene scene) stream)
   (print-unreadable-object (scene stream :type t)
     (format stream "~(~a~):~{ ~(~a~)~}" (scene-name scene)

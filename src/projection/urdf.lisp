@@ -33,6 +33,9 @@
   (links '() :type list :read-only t)
   (joints '() :type list :read-only t))
 
+(setf (documentation 'urdf-model-name 'function)
+      "Return the name of a URDF model, a string.")
+
 (defmethod print-object ((model urdf-model) stream)
   (print-unreadable-object (model stream :type t)
     (format stream "~a: ~d link~:p, ~d joint~:p" (urdf-model-name model)

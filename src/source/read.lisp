@@ -12,6 +12,11 @@
   (file "" :type string :read-only t)
   (line 0 :type (integer 1) :read-only t))
 
+(setf (documentation 'source-position-file 'function)
+      "Return the file of a source position, as the user named it."
+      (documentation 'source-position-line 'function)
+      "Return the line of a source position, counted from 1.")
+
 (defmethod print-object ((position source-position) stream)
   (if *print-escape*
       (print-unreadable-object (position stream :type t)
@@ -29,8 +34,13 @@
 read by READ-SOURCE or LOAD-SOURCE."
   (values (gethash form *positions*)))
 
+(defun native-path (file)
+  "Return the pathname of FILE; a string is taken by its characters, so that a bracket in it makes no
+pattern."
+  (if (stringp file) (uiop:parse-native-namestring file) file))
+
 (defun file-text (file)
-  (handler-case (uiop:read-file-string file :external-format :utf-8)
+  (handler-case (uiop:read-file-string (native-path file) :external-format :utf-8)
     (file-error () (error 'source-error :file (namestring file) :reason "no such file"))
     (error (condition)
       (error 'source-error :file (namestring file)
@@ -102,7 +112,7 @@ read by READ-SOURCE or LOAD-SOURCE."
 
 (defun map-forms (function file package)
   "Call FUNCTION with each form of FILE, read in PACKAGE, and the line where it begins."
-  (let* ((name (namestring file))
+  (let* ((name (uiop:native-namestring file))
          (text (file-text file))
          (starts (line-starts text))
          (*package* (find-package package))
@@ -150,7 +160,8 @@ by its condition."
   "Read the forms of FILE in PACKAGE and evaluate each before the next is read, as LOAD does.
 Return the true name of FILE.  Signals SOURCE-ERROR, which names file and line, also for an error
 that occurs while a form is evaluated."
-  (let ((name (namestring file)))
+  (let* ((file (native-path file))
+         (name (uiop:native-namestring file)))
     (map-forms
      (lambda (form line)
        (handler-bind
@@ -159,7 +170,7 @@ that occurs while a form is evaluated."
                      (unless (self-explaining-p condition)
                        (loading-problem condition name line)))))
          ;; A plan file is code: this is its loader.
-         (let ((*load-pathname* (pathname file)) (*load-truename* (truename file)))
+         (let ((*load-pathname* file) (*load-truename* (truename file)))
            (evaluate-form form))))
      file package)
     (truename file)))

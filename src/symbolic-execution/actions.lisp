@@ -73,6 +73,13 @@ perform returns."
   (condition t :type (or boolean list) :read-only t)
   (value nil :read-only t))
 
+(setf (documentation 'outcome-name 'function)
+      "Return the name of an outcome: :SUCCESS or a failure class."
+      (documentation 'outcome-event 'function)
+      "Return the ground event of an outcome, a list of keywords, or NIL."
+      (documentation 'outcome-condition 'function)
+      "Return the ground formula under which an outcome is possible.")
+
 (defmethod print-object ((outcome outcome) stream)
   (print-unreadable-object (outcome stream :type t)
     (format stream "~(~a~)~@[ ~a~]" (outcome-name outcome)

@@ -115,6 +115,9 @@ propositions is true in any case.  Abandons PATH if none is possible."
   "A truth value that depends on the initial state or on symbolic arguments of the plan."
   (proposition nil :read-only t))
 
+(setf (documentation 'symbolic-boolean-proposition 'function)
+      "Return the proposition that a symbolic boolean stands for.")
+
 (defmethod print-object ((value symbolic-boolean) stream)
   (print-unreadable-object (value stream :type t)
     (princ (symbolic-boolean-proposition value) stream)))

@@ -14,6 +14,17 @@ NIL, the outcome (:SUCCESS or a failure class) and the source position of the pe
   (outcome :success :type symbol :read-only t)
   (position nil :read-only t))
 
+(setf (documentation 'make-trace-step 'function)
+      "Return a new step of a trace."
+      (documentation 'step-designator 'function)
+      "Return the text of the designator of a step."
+      (documentation 'step-event 'function)
+      "Return the ground event of a step, a list of keywords, or NIL."
+      (documentation 'step-outcome 'function)
+      "Return the outcome of a step: :SUCCESS or a failure class."
+      (documentation 'step-position 'function)
+      "Return the source position of the perform form of a step, or NIL.")
+
 (defmethod print-object ((step trace-step) stream)
   (print-unreadable-object (step stream :type t)
     (format stream "~a -> ~(~a~)" (step-designator step) (step-outcome step))))

@@ -2,8 +2,9 @@
 ;;;;
 ;;;; An EXECUTION-TRACE has a concrete initial state, the steps that the plan performs from it, and
 ;;;; the states that follow by the theory.  It is made from a path on which a state constraint comes
-;;;; true, cut after the last timepoint at which it does.  The initial state is the least that the
-;;;; path allows, with false before true in the order of the fluents: a function of the path alone.
+;;;; true, cut after the last timepoint at which it does; the path may go on to a failure, or to where
+;;;; the theory allows nothing.  The initial state is the least that the path allows, with false
+;;;; before true in the order of the fluents: a function of the path alone.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -14,6 +15,17 @@ plan's."
   (arguments '() :type list :read-only t)
   (steps '() :type list :read-only t)
   (states '() :type cons :read-only t))
+
+(setf (documentation 'make-execution-trace 'function)
+      "Return a new execution trace."
+      (documentation 'trace-plan 'function)
+      "Return the symbol that names the plan of a trace."
+      (documentation 'trace-arguments 'function)
+      "Return the list of the arguments of the plan of a trace."
+      (documentation 'trace-steps 'function)
+      "Return the list of the steps of a trace."
+      (documentation 'trace-states 'function)
+      "Return the list of the states of a trace, the initial one first.")
 
 (defun trace-initial-state (trace)
   "Return the discrete initial state of TRACE."

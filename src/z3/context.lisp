@@ -42,6 +42,9 @@
   "Return the address of the Z3 context of CONTEXT, 0 if it is closed."
   (foreign-context-pointer (context-foreign context)))
 
+(setf (documentation 'context-p 'function)
+      "Return true if its argument is a CONTEXT.")
+
 (defmethod print-object ((context context) stream)
   (print-unreadable-object (context stream :type t :identity t)
     (format stream "~:[open~;closed~] after ~d check~:p"

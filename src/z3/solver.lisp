@@ -14,6 +14,11 @@
   ;; NIL; :UNREAD: the last check said :SAT and Z3 holds the model; or the model's address.
   (model nil :type (or null (eql :unread) (unsigned-byte 64))))
 
+(setf (documentation 'solver-p 'function)
+      "Return true if its argument is a SOLVER."
+      (documentation 'solver-context 'function)
+      "Return the context of a solver.")
+
 (defmethod print-object ((solver solver) stream)
   (print-unreadable-object (solver stream :type t :identity t)
     (format stream "~:[open~;closed~]~@[, timeout ~f s~]"

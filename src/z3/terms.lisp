@@ -35,6 +35,11 @@
       (misuse :released-term "the term was released at the end of WITH-RELEASED-TERMS"))
     pointer))
 
+(setf (documentation 'term-p 'function)
+      "Return true if its argument is a TERM."
+      (documentation 'term-context 'function)
+      "Return the context of a term.")
+
 (defmethod print-object ((term term) stream)
   (print-unreadable-object (term stream :type t)
     (let ((context (term-context term)))
