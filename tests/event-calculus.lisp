@@ -135,6 +135,10 @@
   (flet ((parse (&rest clauses) (ec::parse-theory 'lamp clauses)))
     (signals-with (ec:theory-error ":fluents" "no sort lamp") (parse '(:fluents (lit lamp))))
     (signals-with (ec:theory-error "twice") (parse '(:sorts (s a) (s b))))
+    (signals-with (ec:theory-error "axiom same" "same name")
+      (parse '(:fluents (f)) '(:axioms (same (holds-at (f) ?time)) (same (holds-at (f) ?time)))))
+    (signals-with (ec:theory-error "axiom 1" "(bad . worse)")
+      (parse '(:fluents (f)) '(:axioms (bad . worse))))
     (signals-with (ec:theory-error "(s a b a)" "stands twice") (parse '(:sorts (s a b a))))
     (signals-with (ec:theory-error "digit") (parse '(:sorts (s1 a))))
     (signals-with (ec:theory-error "cannot be a name") (parse '(:sorts (s nil))))
@@ -142,7 +146,7 @@
     (signals-with (ec:theory-error "(name ...)") (parse '(:sorts (s a . b))))
     (signals-with (ec:theory-error ":sorts") (parse '(:sorts (s a) . 3)))
     (signals-with (ec:theory-error "flunts was found" ":sorts") (parse '(:flunts (lit))))
-    (signals-with (ec:theory-error "axiom axiom-2" "no fluent")
+    (signals-with (ec:theory-error "axiom 2" "no fluent")
       (parse '(:fluents (f)) '(:axioms (holds-at (f) ?time) (holds-at (g) ?time))))))
 
 (test theory-files

@@ -5,7 +5,14 @@
 (def-suite interface :in all)
 (in-suite interface)
 
+(defvar *executable-is-built* nil
+  "True when the script has been run once, which builds the executable if it is out of date.")
+
 (defun executable ()
+  "Return the path of the executable, built."
+  (unless *executable-is-built*
+    (run-command (list (root-file "discrepancy-finder") "--version"))
+    (setf *executable-is-built* t))
   (root-file "build/discrepancy-finder"))
 
 (defun run-command (command &key (directory (root-file "")) environment)
@@ -165,6 +172,7 @@ line that contains PARTS."
   (let ((directory (merge-pathnames (format nil "df-build-~36r/" (random (expt 36 8)))
                                     (uiop:temporary-directory))))
     (ensure-directories-exist directory)
+    (executable)
     (unwind-protect
          (progn
            (dolist (name '("discrepancy-finder" "libdiscrepancy-finder-bullet.so"))
@@ -233,6 +241,7 @@ Debian's that surely is not installed is asked for as well."
       (uiop:delete-file-if-exists script))))
 
 (test a-second-start-builds-nothing
+  (executable)
   (multiple-value-bind (output errors status)
       (run-command (list (root-file "discrepancy-finder") "--version"))
     (is (search "discrepancy-finder" output))

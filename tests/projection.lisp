@@ -177,6 +177,14 @@
   (urdf-problem-of (urdf-with "<link name=\"a\"/><link name=\"b\"/>
     <joint name=\"j\" type=\"prismatic\"><parent link=\"a\"/><child link=\"b\"/></joint>")
                    "joint j" "limit")
+  (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><box size=\"1 -2 3\"/>
+                               </geometry></collision></link>") "link a" "size of -2")
+  (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><sphere radius=\"1\"/>
+                               <sphere radius=\"2\"/></geometry></collision></link>")
+                   "link a" "several shapes")
+  (urdf-problem-of (urdf-with "<link name=\"a\"/><link name=\"b\"/>
+    <joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/>
+      <limit lower=\"1\" upper=\"0\"/></joint>") "joint j" "above the upper")
   (urdf-problem-of (urdf-with "<link name=\"a\"/>
     <joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"c\"/></joint>")
                    "joint j" "no link c"))
@@ -210,4 +218,7 @@
                                    (:gripper \"gripper_link\")))"
                               (root-file "models/two-regions/robot.urdf"))
                       ":shoulder" "not revolute")
-    (scene-problem-of "(define-scene s (:parameters (reach 0)))" "positive")))
+    (scene-problem-of "(define-scene s (:parameters (reach 0)))" "positive")
+    (scene-problem-of "(define-scene s (:parameters (reach 1) (reach 2)))" "same name")
+    (scene-problem-of "(define-scene s (:parameters (reach 1 . 2)))" "positive-number")
+    (scene-problem-of "(define-scene s #1=(:parameters . #1#))" "#=")))

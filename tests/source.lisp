@@ -39,3 +39,24 @@
 (test an-error-while-loading-is-named
   (with-file (file (format nil "(+ 1 1)~%~%(error \"this~~%is wrong\")"))
     (signals-with (source:source-error ":3: " "this is wrong") (source:load-source file))))
+
+(test warnings-are-a-line-each
+  (with-file (file (format nil "(defun unused-of-the-tests (x) 1)~%~%(defun later-of-the-tests ()~
+                                ~%  (defined-below-of-the-tests no-such-variable-of-the-tests))~
+                                ~%(defun defined-below-of-the-tests (x) x)"))
+    (let* ((text (with-output-to-string (*error-output*) (source:load-source file)))
+           (lines (remove "" (uiop:split-string text :separator '(#\Newline)) :test #'string=)))
+      (is (= 2 (length lines)) "~a" text)
+      (is (search ":1: warning: The variable X is defined but never used" (first lines)))
+      (is (search ":3: warning: undefined variable" (second lines))))))
+
+(test odd-files
+  (with-file (file (format nil "~c(one)" (code-char #xfeff)))
+    (is (equal '((one)) (source:read-source file :package '#:discrepancy-finder.tests))
+        "a byte order mark"))
+  (with-file (file "#1=(a . #1#)")
+    (signals-with (source:source-error "#=") (source:read-source file)))
+  (with-file (file (make-string 300000 :initial-element #\())
+    (signals-with (source:source-error ":1: ") (source:read-source file)))
+  (signals-with (source:source-error "folder")
+    (source:read-source (namestring (uiop:temporary-directory)))))

@@ -256,7 +256,8 @@
                                                   :constraint 'anything)))
       (unwind-protect
            (progn
-             (signals simple-error (symbolic:next-trace exploration))
+             (signals-with (symbolic:plan-broke "lamp-plan" "once")
+               (symbolic:next-trace exploration))
              (is (not (symbolic:exploration-complete-p exploration)))
              (is-true (symbolic:next-trace exploration))
              (is (null (symbolic:next-trace exploration)))
@@ -415,3 +416,16 @@
                (mapcar #'symbolic:step-event (symbolic:trace-steps trace))))
     (is (equal '((:robot-in :r1) (:box-in :r1))
                (ec:state-fluents (symbolic:trace-final-state trace))))))
+
+(test a-plan-that-loops-without-performing-is-cut-off
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (perform (a motion (type smashing) (lamp a)))
+  (loop))" :constraint 'anything :max-jumps 1000)))
+    (is (equal '("paths of more than 1000 iterations") (symbolic:exploration-gaps exploration)))
+    (is (equal '((:success)) (step-outcomes exploration))))
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (with-failure-handling ((plan-failure () (retry)))
+    (fail)))" :constraint 'anything :max-jumps 1000)))
+    (is (not (symbolic:exploration-complete-p exploration)))))

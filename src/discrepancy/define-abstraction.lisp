@@ -68,29 +68,52 @@
           (t (abstraction-problem name clause "the coordinate ~(~a~) is bounded by no region and ~
                                                needs a range, (~:*~(~a~) min max)" axis)))))
 
+(defun parse-coordinates (name clause entries regions)
+  (let ((coordinates (loop for entry in entries
+                           collect (parse-coordinate name clause entry regions))))
+    (unless (= (length coordinates)
+               (length (remove-duplicates (mapcar #'first coordinates))))
+      (abstraction-problem name clause "a coordinate stands twice"))
+    coordinates))
+
+(defun check-movable (name clause scene body)
+  "Signal ABSTRACTION-ERROR unless BODY is the robot or an item of SCENE."
+  (unless (member (ec:name-keyword body)
+                  (cons (projection:scene-robot-name scene) (projection:scene-item-names scene)))
+    (abstraction-problem name clause "the scene has no robot and no item ~a" (ec:name-text body))))
+
+(defun placement-declaration (name clause pattern theory)
+  "Return the declaration of the fluent in PATTERN, which must be (fluent ?sort)."
+  (let ((declaration (and (consp pattern) (symbolp (first pattern))
+                          (assoc (ec:name-keyword (first pattern)) (ec:theory-fluents theory)))))
+    (unless (and declaration (= (length pattern) 2 (length declaration)))
+      (abstraction-problem name clause "~a is no fluent of a region in theory ~a"
+                           (ec:formula-text pattern) (ec:name-text (ec:theory-name theory))))
+    (unless (and (symbolp (second pattern))
+                 (string= (symbol-name (second pattern))
+                          (format nil "?~a" (symbol-name (second declaration)))))
+      (abstraction-problem name clause "~a was found where ?~a was expected"
+                           (ec:formula-text (second pattern))
+                           (ec:name-text (second declaration))))
+    declaration))
+
 (defun parse-placement (name clause theory scene regions)
   (source:destructuring-or (pattern &key body coordinates) (rest clause)
       (abstraction-problem name clause "(:placement (fluent ?region) :body name :coordinates ~
                                         (coordinate*)) was expected")
-    (let* ((fluent (and (consp pattern) (symbolp (first pattern))
-                        (ec:name-keyword (first pattern))))
-           (declaration (assoc fluent (ec:theory-fluents theory))))
-      (unless (and declaration (= (length pattern) 2 (length declaration)))
-        (abstraction-problem name clause "~a is no fluent of a region in theory ~a"
-                             (ec:formula-text pattern) (ec:name-text (ec:theory-name theory))))
+    (let ((declaration (placement-declaration name clause pattern theory)))
       (unless (and (symbolp body) body (consp coordinates))
         (abstraction-problem name clause ":body and :coordinates are needed"))
-      (projection:scene-body-pose scene body)
+      (check-movable name clause scene body)
       (let ((candidates (loop for element in (ec:sort-elements theory (second declaration))
                               collect (or (find element regions :key #'region-name)
                                           (abstraction-problem
                                            name clause "there is no (:region ~a ...)"
                                            (ec:name-text element))))))
         (check-disjoint name candidates)
-        (make-placement :fluent fluent :body (ec:name-keyword body) :regions candidates
-                        :coordinates (loop for entry in coordinates
-                                           collect (parse-coordinate name clause entry
-                                                                     candidates)))))))
+        (make-placement :fluent (first declaration) :body (ec:name-keyword body)
+                        :regions candidates
+                        :coordinates (parse-coordinates name clause coordinates candidates))))))
 
 (defun parse-attachment (name clause theory scene)
   (source:destructuring-or (atom &key item) (rest clause)
@@ -100,9 +123,11 @@
                    (= (length atom) (length (assoc (first atom) (ec:theory-fluents theory)))))
         (abstraction-problem name clause "~a is no ground fluent of theory ~a"
                              (ec:formula-text atom) (ec:name-text (ec:theory-name theory))))
-      (unless (and (symbolp item) item)
-        (abstraction-problem name clause ":item is needed"))
-      (projection:scene-body-pose scene item)
+      (when (some (lambda (term) (char= #\? (char (symbol-name term) 0))) (rest atom))
+        (abstraction-problem name clause "~a is not ground" (ec:formula-text atom)))
+      (unless (and (symbolp item) (member (ec:name-keyword item)
+                                          (projection:scene-item-names scene)))
+        (abstraction-problem name clause "the scene has no item ~a" (ec:formula-text item)))
       (make-attachment :atom atom :item (ec:name-keyword item)))))
 
 (defun relative-file (file directory)
@@ -117,7 +142,23 @@
                            (ec:formula-text (if (consp clause) (first clause) clause)))))
   (dolist (key '(:theory :scene))
     (unless (= (count key clauses :key #'first) 1)
-      (abstraction-problem name nil "exactly one clause (~(~s~) ...) is needed" key))))
+      (abstraction-problem name nil "exactly one clause (~(~s~) ...) is needed" key)))
+  (let ((theory (second (assoc :theory clauses))))
+    (unless (or (stringp theory) (and theory (symbolp theory)))
+      (abstraction-problem name (assoc :theory clauses) "a name or a file name was expected")))
+  (unless (stringp (second (assoc :scene clauses)))
+    (abstraction-problem name (assoc :scene clauses) "a file name was expected"))
+  ;; Each region, and each fluent that is observed, is defined once.
+  (let ((seen '()))
+    (loop for (key subject) in clauses
+          for name-of = (if (consp subject) (first subject) subject)
+          do (when (and (member key '(:region :placement :attachment)) (symbolp name-of))
+               (let ((entry (list (if (eq key :region) :region :observer)
+                                  (symbol-name name-of)
+                                  (and (eq key :attachment) (rest subject)))))
+                 (when (member entry seen :test #'equal)
+                   (abstraction-problem name nil "~a is defined twice" (ec:name-text name-of)))
+                 (push entry seen))))))
 
 (defun parse-abstraction (name clauses &key file)
   "Return the domain NAME that CLAUSES describe; file names in them are relative to FILE."

@@ -176,7 +176,7 @@ same in every run, and the same as in symbolic execution."
         (*gensym-counter* 0))
     (catch monitor
       (plan:with-executive (monitor)
-        (handler-case (progn (apply plan arguments) :finished)
+        (handler-case (progn (symbolic:call-plan plan plan arguments) :finished)
           (plan:plan-failure (failure) (type-of failure)))))))
 
 (defun execute-sample (domain plan sample &key trace (execution :trace) arguments
@@ -187,11 +187,13 @@ steps; EXECUTION is :TRACE or :PLAN.  What the plan prints goes to OUTPUT.  The 
 the same bits, provided that the plan does not read global variables that it writes."
   (projection:with-projection (projection (domain-scene domain)
                                           :poses (sample-poses domain sample))
-    (let* ((settled (projection:settle projection))
+    ;; What is built into something else is invalid, however it comes apart.
+    (let* ((built (sample-validity projection nil '()))
+           (settled (projection:settle projection))
            (initial-state (discrete-state domain projection))
-           (validity (if settled
-                         (sample-validity projection trace initial-state)
-                         "it does not come to rest")))
+           (validity (cond ((not (eq built :valid)) built)
+                           ((not settled) "it does not come to rest")
+                           (t (sample-validity projection trace initial-state)))))
       (flet ((result (ending steps)
                (make-run :sample sample :validity validity :ending ending
                          :initial-state initial-state :steps steps
@@ -212,11 +214,21 @@ the same bits, provided that the plan does not read global variables that it wri
               (result ending (reverse (monitor-steps monitor))))
             (result :not-run '()))))))
 
+(defun check-state-argument (state)
+  "Signal INVALID-ARGUMENT unless STATE is a list of (body axis value ...)."
+  (unless (and (listp state)
+               (every (lambda (entry)
+                        (and (consp entry) (symbolp (first entry)) (oddp (length entry))))
+                      state))
+    (error 'invalid-argument :name 'state :value state
+                             :expected "a list of (body axis number ...)")))
+
 (defun run-plan (plan &key domain state parameters arguments)
   "Run PLAN (a symbol) concretely in DOMAIN (a domain or its name) and return the RUN.  STATE is a
 list of (BODY axis value ...), such as ((box :x 1.3 :y 0.41)); what it leaves out is as in the
 scene.  PARAMETERS is a property list of scene parameters, ARGUMENTS are the plan's.  Signals
 PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, UNKNOWN-BODY, UNKNOWN-PARAMETER, INVALID-ARGUMENT."
+  (check-state-argument state)
   (let* ((plan (plan:plan-name (ensure-plan plan)))
          (domain (domain-with-parameters (ensure-domain domain) parameters))
          (values '())

@@ -59,18 +59,26 @@ REPLAY-ERROR."))
   (find-symbol (if (string= text (string-downcase text)) (string-upcase text) text)
                '#:discrepancy-finder-user))
 
-(defun read-plan (object)
+(defun locate-near (file folder)
+  "Return FILE as LOCATE-FILE finds it, or below FOLDER, the replay file's, or the one above."
+  (or (locate-file file)
+      (loop for directory in (list folder (uiop:pathname-parent-directory-pathname folder))
+            for candidate = (merge-pathnames (uiop:parse-native-namestring file) directory)
+            when (uiop:file-exists-p candidate)
+              return (uiop:native-namestring candidate))))
+
+(defun read-plan (object folder)
   (let* ((name (value-of object "name" 'string))
          (file (value-of object "file" '(or string (eql :null))))
          (plan (or (let ((symbol (symbol-of name))) (and symbol (plan:plan-source symbol)))
-                   (let ((located (and (stringp file) (locate-file file))))
+                   (let ((located (and (stringp file) (locate-near file folder))))
                      (when located (plan:load-plan located))
                      (let ((symbol (symbol-of name))) (and symbol (plan:plan-source symbol)))))))
     (or plan
         (replay-problem "there is no plan ~a~@[; its file ~a is not found~]" name
-                        (and (stringp file) (not (locate-file file)) file)))))
+                        (and (stringp file) (not (locate-near file folder)) file)))))
 
-(defun read-domain (object)
+(defun read-domain (object folder)
   (let* ((name (value-of object "name" 'string))
          (file (value-of object "file" '(or string (eql :null)))))
     (flet ((registered ()
@@ -78,11 +86,11 @@ REPLAY-ERROR."))
                    :key (lambda (domain) (ec:name-text (symbolic:action-theory-name domain)))
                    :test #'string=)))
       (or (registered)
-          (let ((located (and (stringp file) (locate-file file))))
+          (let ((located (and (stringp file) (locate-near file folder))))
             (when located (load-domain located))
             (registered))
           (replay-problem "there is no domain ~a~@[; its file ~a is not found~]" name
-                          (and (stringp file) (not (locate-file file)) file))))))
+                          (and (stringp file) (not (locate-near file folder)) file))))))
 
 (defun read-parameters (object scene)
   (loop for (name . value) in object
@@ -178,18 +186,40 @@ REPLAY-ERROR."))
     (list (parse-integer hash :radix 16)
           (keyword-of object "verdict" '(:discrepancy)))))
 
-(defun changed-files (object)
+(defun changed-files (object folder)
   "Return the names of the files whose text has changed since the discrepancy was stored."
   (loop for (file . hash) in (value-of object "files" 'list)
-        unless (equal hash (json-or-null (file-hash file)))
+        unless (equal hash (json-or-null (file-hash (or (locate-near file folder) file))))
           collect file))
 
-(defun parse-replay (object)
-  "Return what the replay file OBJECT tells: a property list."
+(defun check-strings (object key)
+  "Check that KEY has an array of strings in OBJECT."
+  (unless (every #'stringp (value-of object key 'simple-vector))
+    (replay-problem "~s is no array of strings" key)))
+
+(defun check-replay (object)
+  "Check the parts of OBJECT that can be checked without plan and domain, which are code and are
+loaded only for a file that has this form."
   (unless (and (listp object) (equal (json:get-key object "format" nil) *replay-format*))
     (replay-problem "it is no replay file: ~s should be ~s" "format" *replay-format*))
-  (let* ((plan (read-plan (value-of object "plan" 'list)))
-         (domain (read-domain (value-of object "domain" 'list)))
+  (dolist (key '("plan" "domain" "parameters" "files" "trace" "sample" "run"))
+    (value-of object key 'list))
+  (value-of object "seed" '(unsigned-byte 64))
+  (value-of object "constraint" 'string)
+  (keyword-of object "execution" '(:trace :plan))
+  (keyword-of object "compare" '(:final :every-step))
+  (let ((run (value-of object "run" 'list)))
+    (read-recorded-run run)
+    (check-strings run "final")
+    (value-of (value-of run "divergence" 'cons) "step" '(integer 1)))
+  (check-strings (value-of object "trace" 'list) "initial")
+  (value-of (value-of object "sample" 'list) "index" '(unsigned-byte 32)))
+
+(defun parse-replay (object folder)
+  "Return what OBJECT, the content of a replay file in FOLDER, tells: a property list."
+  (check-replay object)
+  (let* ((plan (read-plan (value-of object "plan" 'list) folder))
+         (domain (read-domain (value-of object "domain" 'list) folder))
          (parameters (read-parameters (value-of object "parameters" 'list) (domain-scene domain)))
          (domain (domain-with-parameters domain parameters))
          (trace (read-trace (value-of object "trace" 'list) plan domain)))
@@ -203,7 +233,7 @@ REPLAY-ERROR."))
                                  (sampling-error (condition)
                                    (replay-problem "~a" (sampling-error-reason condition)))))
           :recorded (read-recorded-run (value-of object "run" 'list))
-          :changed-files (changed-files object))))
+          :changed-files (changed-files object folder))))
 
 (defun read-replay-file (file)
   "Return the property list that PARSE-REPLAY makes of FILE.  Signals REPLAY-ERROR."
@@ -211,7 +241,8 @@ REPLAY-ERROR."))
       (progn
         (unless (uiop:file-exists-p file)
           (replay-problem "no such file"))
-        (parse-replay (json:parse (uiop:read-file-string file :external-format :utf-8))))
+        (parse-replay (json:parse (uiop:read-file-string file :external-format :utf-8))
+                      (uiop:pathname-directory-pathname (truename file))))
     (replay-fault (fault)
       (error 'replay-error :file (namestring file) :reason (replay-fault-reason fault)))
     (json:json-error (condition)

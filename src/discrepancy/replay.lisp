@@ -92,25 +92,38 @@
                                            (discrepancy-judgement discrepancy)))))))
 
 (defun write-file-whole (file text)
-  "Write TEXT to FILE, which either keeps its old content or gets all of the new."
-  (let* ((file (uiop:ensure-absolute-pathname file (uiop:getcwd)))
-         (temporary (make-pathname :type "part" :defaults file)))
-    (ensure-directories-exist file)
-    (with-open-file (stream temporary :direction :output :if-exists :supersede
-                                      :external-format :utf-8)
-      (write-string text stream))
-    (uiop:rename-file-overwriting-target temporary file)))
+  "Write TEXT to FILE, a string, which either keeps its old content or gets all of the new.  Signals
+REPLAY-ERROR if that cannot be."
+  (let* ((temporary (format nil "~a.part~d" file (sb-unix:unix-getpid)))
+         (path (uiop:parse-native-namestring temporary)))
+    (flet ((problem (reason)
+             (error 'replay-error :file file :reason reason)))
+      (when (uiop:directory-exists-p (uiop:parse-native-namestring file :ensure-directory t))
+        (problem "it is a folder"))
+      (handler-case (with-open-file (stream path :direction :output :if-exists :supersede
+                                                 :external-format :utf-8)
+                      (write-string text stream))
+        (stream-error () (problem "it cannot be written"))
+        (file-error () (problem "it cannot be written")))
+      (unless (sb-unix:unix-rename temporary file)
+        (uiop:delete-file-if-exists path)
+        (problem "it cannot be replaced")))))
+
+(defun default-file (discrepancy)
+  "Return a file name for DISCREPANCY in the folder discrepancies/, which is made if need be."
+  (ensure-directories-exist "discrepancies/")
+  (format nil "discrepancies/~a-~d-~a.json"
+          (file-name (plan:plan-name (discrepancy-plan discrepancy)))
+          (discrepancy-seed discrepancy)
+          (subseq (hash-text (run-hash (discrepancy-run discrepancy))) 0 8)))
 
 (defun save-discrepancy (discrepancy &optional file)
-  "Write DISCREPANCY to FILE and return the file's name.  By default the file is in the folder
-discrepancies/, under a name made of plan, seed and state hash."
-  (let ((file (or file (format nil "discrepancies/~a-~d-~a.json"
-                               (file-name (plan:plan-name (discrepancy-plan discrepancy)))
-                               (discrepancy-seed discrepancy)
-                               (subseq (hash-text (run-hash (discrepancy-run discrepancy))) 0 8)))))
+  "Write DISCREPANCY to FILE, a string, and return it.  By default the file is in the folder
+discrepancies/, under a name made of plan, seed and state hash.  Signals REPLAY-ERROR."
+  (let ((file (or file (default-file discrepancy))))
     (write-file-whole file (format nil "~a~%" (json:encode (discrepancy-json discrepancy)
                                                            :pretty t)))
-    (setf (discrepancy-file discrepancy) (namestring file))))
+    (setf (discrepancy-file discrepancy) file)))
 
 ;;; Replaying
 

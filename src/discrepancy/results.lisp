@@ -135,11 +135,11 @@
     (cond ((result-discrepancies result) "theory and simulation disagree")
           ((not (symbolic:exploration-consistent-p (result-exploration result)))
            "the theory allows no initial state")
-          ((null (result-traces result))
-           "the state constraint comes true on no path, so nothing was simulated")
           (undecided (trace-result-reason undecided))
           ((symbolic:exploration-complete-p (result-exploration result))
-           "every trace is certified and exploration was complete")
+           (if (result-traces result)
+               "every trace is certified and exploration was complete"
+               "the state constraint comes true on no path, so nothing was simulated"))
           (t (format nil "exploration was incomplete~@[: ~{~a~^, ~}~]"
                      (symbolic:exploration-gaps (result-exploration result)))))))
 

@@ -132,14 +132,14 @@ variables are told apart by digits."
 
 (defun parse-axiom (theory-name entry number)
   "Return the axiom written as ENTRY: a formula, or (name formula)."
-  (unless (consp entry)
-    (theory-problem theory-name (format nil "axiom ~d" number) nil
+  (unless (and (consp entry) (proper-list-p entry))
+    (theory-problem theory-name (format nil "axiom ~d" number) (and (consp entry) entry)
                     "~a was found where a formula was expected" (formula-text entry)))
   (let ((named (and (symbolp (first entry)) (= (length entry) 2) (consp (second entry))
                     (not (formula-operator-p (first entry))))))
     (let ((name (if named
                     (name-keyword (first entry))
-                    (name-keyword (make-symbol (format nil "AXIOM-~d" number))))))
+                    (name-keyword (make-symbol (format nil "~d" number))))))
       (make-axiom :name name
                   :formula (normalize (if named (second entry) entry) theory-name
                                       (format nil "axiom ~a" (name-text name)))
@@ -181,8 +181,10 @@ variables are told apart by digits."
                          for number from 1
                          collect (parse-axiom name entry number))))
       (check-signatures theory)
-      (dolist (axiom axioms)
-        (check-axiom theory axiom))
+      (loop for (axiom . others) on axioms
+            do (check-axiom theory axiom)
+               (when (find (axiom-name axiom) others :key #'axiom-name)
+                 (theory-problem theory axiom nil "another axiom has the same name")))
       (setf (theory-axioms theory) axioms)
       theory)))
 

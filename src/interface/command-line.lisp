@@ -46,7 +46,9 @@ status."
 
 (defun number-argument (text name)
   "Return the number written in TEXT, the value of the option NAME."
-  (let ((value (ignore-errors (json:parse text))))
+  (let ((value (ignore-errors (json:parse (if (uiop:string-prefix-p "." text)
+                                              (concatenate 'string "0" text)
+                                              text)))))
     (if (realp value)
         value
         (usage-problem "~a is ~s where a number was expected." name text))))
@@ -60,9 +62,13 @@ status."
 
 (defun parameter-arguments (texts)
   "Return the property list of the scene parameters in TEXTS, each name=number."
-  (loop for text in texts
-        append (multiple-value-bind (name value) (assignment text "--set")
-                 (list (keyword-argument name) value))))
+  (let ((parameters '()))
+    (dolist (text texts parameters)
+      (multiple-value-bind (name value) (assignment text "--set")
+        (let ((key (keyword-argument name)))
+          (when (getf parameters key)
+            (usage-problem "--set gives ~a twice." name))
+          (setf parameters (append parameters (list key value))))))))
 
 (defun state-arguments (texts)
   "Return the state for RUN-PLAN in TEXTS, each body.axis=number."
@@ -74,8 +80,24 @@ status."
                     (list (keyword-argument (subseq name 0 dot))
                           (keyword-argument (subseq name (1+ dot))) value)))))
 
-(defun lisp-file-p (text)
-  (uiop:string-suffix-p text ".lisp"))
+(defun file-argument-p (text)
+  "Return true if TEXT is the name of a file and not of a plan or domain."
+  (or (find #\/ text)
+      (uiop:string-suffix-p (string-downcase text) ".lisp")
+      (and (string/= text "") (uiop:file-exists-p (uiop:parse-native-namestring text)))))
+
+(defun plan-among (plans file name)
+  "Return the one of PLANS, which FILE defines, that NAME means; NIL means the only top-level one."
+  (let ((candidates (if name
+                        (remove name plans :key (lambda (plan) (symbol-name (plan:plan-name plan)))
+                                           :test-not #'string-equal)
+                        (remove-if-not #'plan:plan-top-level-p plans))))
+    (cond ((null candidates)
+           (usage-problem "~a defines no ~:[top-level plan~;plan named ~:*~a~]." file name))
+          ((rest candidates)
+           (usage-problem "~a defines several top-level plans, so name one of~{ ~(~a~)~^,~}."
+                          file (mapcar #'plan:plan-name candidates)))
+          (t (plan:plan-name (first candidates))))))
 
 (defun plan-argument (arguments)
   "Return the symbol of the plan that ARGUMENTS name: a file and, where it defines several
@@ -83,31 +105,20 @@ top-level plans, a name; or a name."
   (destructuring-bind (&optional file name &rest more) arguments
     (cond ((null file) (usage-problem "A plan is missing."))
           (more (usage-problem "There are too many arguments: ~{~a~^ ~}." more))
-          ((not (lisp-file-p file))
-           (plan:plan-name (discrepancy:ensure-plan
-                            (intern (string-upcase file) '#:discrepancy-finder-user))))
-          (t
-           (let* ((plans (plan:load-plan (or (discrepancy:locate-file file) file)))
-                  (candidates (if name
-                                  (remove name plans :key (lambda (plan)
-                                                            (symbol-name (plan:plan-name plan)))
-                                                     :test-not #'string-equal)
-                                  (remove-if-not #'plan:plan-top-level-p plans))))
-             (cond ((null candidates)
-                    (usage-problem "~a defines no ~:[top-level plan~;plan named ~:*~a~]."
-                                   file name))
-                   ((rest candidates)
-                    (usage-problem "~a defines several top-level plans, so name one of~
-                                    ~{ ~(~a~)~^,~}." file (mapcar #'plan:plan-name candidates)))
-                   (t (plan:plan-name (first candidates)))))))))
+          ((file-argument-p file)
+           (plan-among (plan:load-plan (or (discrepancy:locate-file file) file)) file name))
+          (name (usage-problem "There is an argument too many: ~a." name))
+          (t (plan:plan-name (discrepancy:ensure-plan
+                              (intern (string-upcase file) '#:discrepancy-finder-user)))))))
 
 (defun domain-argument (options)
   "Return the domain that --domain names: a file, a folder with a domain.lisp, or a name."
-  (let ((text (or (getf options :domain) (usage-problem "--domain is missing."))))
-    (cond ((lisp-file-p text) (discrepancy:load-domain (or (discrepancy:locate-file text) text)))
-          ((uiop:directory-exists-p text)
-           (discrepancy:load-domain (merge-pathnames "domain.lisp"
-                                                     (uiop:ensure-directory-pathname text))))
+  (let* ((text (or (getf options :domain) (usage-problem "--domain is missing.")))
+         (in-folder (discrepancy:locate-file (format nil "~a/domain.lisp"
+                                                     (string-right-trim "/" text)))))
+    (cond (in-folder (discrepancy:load-domain in-folder))
+          ((file-argument-p text)
+           (discrepancy:load-domain (or (discrepancy:locate-file text) text)))
           (t (discrepancy:ensure-domain (keyword-argument text))))))
 
 ;;; Dispatch
@@ -116,8 +127,6 @@ top-level plans, a name; or a name."
   (format stream "Usage: discrepancy-finder SUBCOMMAND [OPTION ...]~%~%")
   (dolist (subcommand *subcommands*)
     (format stream "  ~12a ~a~%" (subcommand-name subcommand) (subcommand-summary subcommand)))
-  (format stream "  ~12a ~a~%  ~12a ~a~%" "test" "Run the test suites; --long adds the long ones."
-          "bench" "Print the benchmarks.")
   (format stream "~%SUBCOMMAND --help shows its options; --version the version.  Exit status: 0 ~
                   certified,~%1 discrepancy found, 2 error, 3 undecided.~%"))
 
@@ -158,7 +167,7 @@ subcommands takes a value."
            (let ((subcommand (find name *subcommands* :key #'subcommand-name :test #'string=)))
              (unless subcommand
                (usage-problem "There is no subcommand ~a; see discrepancy-finder --help." name))
-             (if (member "--help" words :test #'string=)
+             (if (intersection '("--help" "-h") words :test #'string=)
                  (progn (print-subcommand-help subcommand *standard-output*) 0)
                  (multiple-value-bind (options arguments) (parse-options subcommand words)
                    (funcall (subcommand-function subcommand) arguments options))))))))
@@ -176,15 +185,31 @@ subcommands takes a value."
     (z3:solver-unknown (condition) (complain condition) 3)
     (serious-condition (condition) (complain condition) 2)))
 
+(defun leave (status)
+  "End the process with STATUS at once."
+  (sb-ext:exit :code status :abort t))
+
+(defun terminate (&rest signal)
+  (declare (ignore signal))
+  (leave 143))
+
+(defun refuse-to-exit ()
+  "Called when something else than MAIN ends the process: a plan, say.  It has no verdict to give."
+  (ignore-errors
+   (format *error-output* "discrepancy-finder: a plan or domain file ended the process.~%")
+   (finish-output *error-output*))
+  (leave 2))
+
 (defun main ()
   "Run the command line of the executable and leave the process with the exit status."
   (sb-ext:disable-debugger)
+  (sb-sys:enable-interrupt sb-unix:sigterm #'terminate)
+  (push #'refuse-to-exit sb-ext:*exit-hooks*)
   (setf *default-pathname-defaults* #p""
         *read-default-float-format* 'double-float)
-  (let ((status (call-with-exit-status
-                 (lambda ()
-                   (foreign:open-libraries)
-                   (discrepancy:use-data-directories (image-directories))
-                   (prog1 (run-subcommand (rest sb-ext:*posix-argv*))
-                     (finish-output))))))
-    (sb-ext:exit :code status :abort t)))
+  (leave (call-with-exit-status
+          (lambda ()
+            (foreign:open-libraries)
+            (discrepancy:use-data-directories (image-directories))
+            (prog1 (run-subcommand (rest sb-ext:*posix-argv*))
+              (finish-output))))))

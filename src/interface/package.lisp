@@ -13,7 +13,7 @@
                     (#:arguments #:command-line-arguments))
   (:import-from #:discrepancy-finder.event-calculus
                 #:define-theory #:load-theory #:find-theory #:define-state-constraint
-                #:event-calculus-error #:theory-error #:theory-not-found
+                #:event-calculus-error #:theory-error #:theory-not-found #:unknown-atom
                 #:state-constraint-not-found)
   (:import-from #:discrepancy-finder.plan-language
                 #:load-plan #:plan-error #:plan-not-found #:malformed-plan-form
@@ -22,7 +22,8 @@
                 #:define-action #:region-of #:exploration #:exploration-traces
                 #:exploration-complete-p #:exploration-paths #:exploration-gaps
                 #:trace-initial-state #:trace-steps #:trace-final-state #:execution-trace
-                #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan #:domain-not-found #:action-problem)
+                #:plan-broke
+                #:symbolic-execution-error #:plan-broke #:unsupported-form #:nondeterministic-plan #:domain-not-found #:action-problem)
   (:import-from #:discrepancy-finder.discrepancy
                 #:define-abstraction #:load-domain #:domain
                 #:find-discrepancies #:search-result #:result-status #:result-reason
@@ -62,10 +63,11 @@
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
+   #:unknown-atom
    #:plan-error #:plan-not-found #:malformed-plan-form #:designator-not-understood
    #:domain-not-found #:source-error #:scene-error #:urdf-error
    #:projection-error #:unknown-parameter #:impossible-parameter #:unknown-body
-   #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan #:action-problem
+   #:symbolic-execution-error #:plan-broke #:unsupported-form #:nondeterministic-plan #:action-problem
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:invalid-confidence #:unknown-confidence-rule #:invalid-argument
    #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat

@@ -31,7 +31,9 @@ return the two results.  A discrepancy is saved for replay; COMMAND is printed i
     (loop for result in results
           for reach in '("0.8 m" "0.5 m")
           do (format stream "~&--- an arm that reaches ~a ---~%" reach)
-             (mapc #'save-discrepancy (result-discrepancies result))
+             (dolist (discrepancy (result-discrepancies result))
+               (handler-case (save-discrepancy discrepancy)
+                 (error (condition) (warn "~a" (source:condition-sentence condition)))))
              (format stream "~a~%" (result-text result :command command)))
     (format stream "What one sees: the theory lets the robot pick up the box wherever it lies in ~
                     r2; an arm of 0.8 m~%~a, one of 0.5 m ~a.~%"

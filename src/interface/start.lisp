@@ -6,10 +6,13 @@
 
 (defun build-executable ()
   "Load the system and save it as build/discrepancy-finder.new."
-  (asdf:load-system "discrepancy-finder")
+  (handler-case (asdf:load-system "discrepancy-finder")
+    (error (condition)
+      (format *error-output* "~&~a~%" condition)
+      (sb-ext:exit :code 2 :abort t)))
   (uiop:symbol-call '#:discrepancy-finder '#:save-executable
                     (asdf:system-relative-pathname "discrepancy-finder"
-                                                   "build/discrepancy-finder")))
+                                                   "build/discrepancy-finder.new")))
 
 (defun option-p (name)
   (member name (rest sb-ext:*posix-argv*) :test #'string=))

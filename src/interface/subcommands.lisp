@@ -16,6 +16,8 @@
     (""
      "Run both variants of the paper's Example 1."
      (("seed") :type integer :documentation "seed of the samples (1)"))
+  (when arguments
+    (usage-problem "demo takes no arguments."))
   (demo :seed (or (getf options :seed) 1) :command (command-name))
   0)
 
@@ -46,10 +48,11 @@
                               when (getf options key) append (list key (getf options key)))
                         (let ((text (getf options :confidence)))
                           (and text (list :confidence (number-argument text "--confidence"))))))))
-    ;; The report is printed even if the discrepancy cannot be saved.
-    (unwind-protect (when (result-discrepancy result)
-                      (save-discrepancy (result-discrepancy result) (getf options :save)))
-      (write-string (result-text result :command (command-name))))
+    ;; A discrepancy that cannot be saved is still one.
+    (when (result-discrepancy result)
+      (handler-case (save-discrepancy (result-discrepancy result) (getf options :save))
+        (error (condition) (complain condition))))
+    (write-string (result-text result :command (command-name)))
     (status-code result)))
 
 (define-subcommand "explore" (arguments options)
@@ -77,7 +80,7 @@
                        :state (state-arguments (getf options :state))
                        :parameters (parameter-arguments (getf options :set)))))
     (write-string (discrepancy:run-text run))
-    0))
+    (if (eq (discrepancy:run-ending run) :finished) 0 3)))
 
 (define-subcommand "replay" (arguments options)
     ("FILE"
@@ -90,3 +93,15 @@
       (:discrepancy 1)
       (:consistent 0)
       ((:left-trace :invalid) 3))))
+
+;;; The script runs these two itself, from the sources, where it understands what follows them.
+
+(define-subcommand "test" (arguments options)
+    ("[--long]"
+     "Run the test suites; --long adds the long ones.")
+  (usage-problem "test is run by the script discrepancy-finder, with --long or nothing after it."))
+
+(define-subcommand "bench" (arguments options)
+    (""
+     "Print the benchmarks.")
+  (usage-problem "bench is run by the script discrepancy-finder, with nothing after it."))

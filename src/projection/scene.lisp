@@ -171,8 +171,8 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
                        :roles (and (eq kind :robot) (robot-roles clause model file))))))
 
 (defun parse-parameter (entry file)
-  (unless (and (consp entry) (symbolp (first entry)) (realp (second entry))
-               (plusp (second entry)))
+  (unless (and (consp entry) (null (cdr (last entry))) (symbolp (first entry))
+               (realp (second entry)) (plusp (second entry)))
     (scene-problem file entry "(name positive-number [documentation]) was expected in ~
                                :parameters"))
   (list* (source:name-keyword (first entry)) (decimal-double (second entry)) (cddr entry)))
@@ -193,9 +193,12 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
                             "~(~s~) was found where :parameters, :fixture, :item or :robot was ~
                              expected"
                             (if (consp clause) (first clause) clause)))))
-      (let ((names (mapcar #'scene-part-name parts)))
-        (unless (= (length names) (length (remove-duplicates names)))
-          (scene-problem file form "two parts have the same name")))
+      (flet ((distinct-p (names)
+               (= (length names) (length (remove-duplicates names)))))
+        (unless (distinct-p (mapcar #'scene-part-name parts))
+          (scene-problem file form "two parts have the same name"))
+        (unless (distinct-p (mapcar #'first parameters))
+          (scene-problem file form "two parameters have the same name")))
       (unless (<= (count :robot parts :key #'scene-part-kind) 1)
         (scene-problem file form "there can be one robot only"))
       (make-scene :name (source:name-keyword name) :documentation documentation :file (namestring file)

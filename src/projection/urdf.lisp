@@ -90,12 +90,23 @@
           (make-pose x y z :roll roll :pitch pitch :yaw yaw))
         (identity-pose))))
 
+(defun positive (number element)
+  (if (plusp number)
+      number
+      (urdf-problem element "a size of ~a" number)))
+
 (defun geometry-shape (geometry element)
-  (let ((node (and geometry (find-if #'xmls:node-p (xmls:node-children geometry)))))
-    (flet ((size (name) (number-in (required-attribute node name element) element)))
+  (let* ((nodes (and geometry (remove-if-not #'xmls:node-p (xmls:node-children geometry))))
+         (node (first nodes)))
+    (when (rest nodes)
+      (urdf-problem element "a geometry of several shapes"))
+    (flet ((size (name)
+             (positive (number-in (required-attribute node name element) element) element)))
       (cond ((null node) (urdf-problem element "a collision without geometry"))
             ((string= (xmls:node-name node) "box")
-             (cons :box (numbers-in (required-attribute node "size" element) 3 element)))
+             (cons :box (loop for number in (numbers-in (required-attribute node "size" element)
+                                                        3 element)
+                              collect (positive number element))))
             ((string= (xmls:node-name node) "cylinder")
              (list :cylinder (size "radius") (size "length")))
             ((string= (xmls:node-name node) "sphere") (list :sphere (size "radius")))
@@ -144,6 +155,8 @@
            (bound (name)
              (and limit (not (eq type :continuous))
                   (number-in (attribute limit name "0") element))))
+      (when (and (bound "lower") (> (bound "lower") (bound "upper")))
+        (urdf-problem element "its lower limit is above the upper one"))
       (make-urdf-joint
        :name name :type type :parent (link "parent") :child (link "child")
        :origin (origin-of node element)
@@ -181,8 +194,7 @@
 
 (defun parse-xml (text)
   (handler-case (xmls:parse text :quash-errors nil)
-    (error (condition)
-      (urdf-problem nil "it is not well-formed XML (~a)" (source:condition-sentence condition)))))
+    (serious-condition () (urdf-problem nil "it is not well-formed XML"))))
 
 (defun parse-urdf (text file)
   "Return the URDF-MODEL that TEXT, the content of FILE, describes."

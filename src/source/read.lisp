@@ -40,12 +40,17 @@ pattern."
   (if (stringp file) (uiop:parse-native-namestring file) file))
 
 (defun file-text (file)
-  (handler-case (uiop:read-file-string (native-path file) :external-format :utf-8)
-    (file-error () (error 'source-error :file (namestring file) :reason "no such file"))
-    (error (condition)
-      (error 'source-error :file (namestring file)
-                           :reason (format nil "not a UTF-8 text: ~a"
-                                           (condition-sentence condition))))))
+  (let ((path (native-path file)))
+    (flet ((problem (reason)
+             (error 'source-error :file (uiop:native-namestring path) :reason reason)))
+      (handler-case
+          ;; Some editors begin a file with a byte order mark.
+          (string-left-trim '(#\Zero_width_no-break_space)
+                            (uiop:read-file-string path :external-format :utf-8))
+        (file-error () (problem (cond ((uiop:directory-exists-p path) "it is a folder")
+                                      ((uiop:file-exists-p path) "it cannot be read")
+                                      (t "no such file"))))
+        (stream-error () (problem "it is not a UTF-8 text"))))))
 
 (defun line-starts (text)
   "Return the vector of the offsets at which the lines of TEXT begin."
@@ -64,8 +69,13 @@ pattern."
                    (setf high middle))))
     (1+ low)))
 
-(defun tracking-readtable (file starts)
-  "Return a standard readtable whose lists are entered in *POSITIONS*."
+(defun refuse-label (stream character argument)
+  (declare (ignore stream argument))
+  (error "#~a is not understood in a file of data" character))
+
+(defun tracking-readtable (file starts data)
+  "Return a standard readtable whose lists are entered in *POSITIONS*.  For DATA, labels by which a
+list can contain itself are refused."
   (let* ((readtable (copy-readtable nil))
          (read-list (get-macro-character #\( readtable)))
     (set-macro-character
@@ -76,6 +86,9 @@ pattern."
                (setf (gethash form *positions*) (make-source-position file line)))
              form))
      nil readtable)
+    (when data
+      (dolist (character '(#\= #\#))
+        (set-dispatch-macro-character #\# character #'refuse-label readtable)))
     readtable))
 
 (defun skip-block-comment (stream)
@@ -105,19 +118,23 @@ pattern."
       (end-of-file ()
         (error 'source-error :file file :line (line-at starts start)
                              :reason "the form that begins here is not closed"))
+      (storage-condition ()
+        (error 'source-error :file file :line (line-at starts start)
+                             :reason "the form that begins here is nested too deeply"))
       (error (condition)
         (error 'source-error :file file
                              :line (line-at starts (max start (1- (file-position stream))))
                              :reason (condition-sentence condition))))))
 
-(defun map-forms (function file package)
-  "Call FUNCTION with each form of FILE, read in PACKAGE, and the line where it begins."
+(defun map-forms (function file package &key data)
+  "Call FUNCTION with each form of FILE, read in PACKAGE, and the line where it begins.  DATA: the
+forms are not evaluated."
   (let* ((name (uiop:native-namestring file))
          (text (file-text file))
          (starts (line-starts text))
          (*package* (find-package package))
          (*read-eval* nil)
-         (*readtable* (tracking-readtable name starts))
+         (*readtable* (tracking-readtable name starts data))
          (*read-default-float-format* 'double-float))
     (with-input-from-string (stream text)
       (loop
@@ -130,7 +147,8 @@ pattern."
   "Return the list of the forms in FILE, read in PACKAGE; nothing is evaluated.  Numbers with a
 point are double floats.  Signals SOURCE-ERROR."
   (let ((forms '()))
-    (map-forms (lambda (form line) (declare (ignore line)) (push form forms)) file package)
+    (map-forms (lambda (form line) (declare (ignore line)) (push form forms)) file package
+               :data t)
     (nreverse forms)))
 
 (defgeneric self-explaining-p (condition)
@@ -148,29 +166,42 @@ file and line in front of it.")
                     (one-line (sb-kernel::program-error-message condition)))
                    (t (condition-sentence condition)))))
 
-(defun evaluate-form (form)
-  "Evaluate FORM.  What the compiler says is printed only if there is no error: an error is reported
-by its condition."
-  (let ((output (make-string-output-stream)))
-    (let ((*error-output* output))
-      (eval form))
-    (write-string (get-output-stream-string output) *error-output*)))
+(defun call-with-warning-lines (function file)
+  "Call FUNCTION with a function that it calls with the line of FILE that it is at, or NIL.  Of what
+the compiler says meanwhile the warnings are printed, a line each."
+  (let ((errors *error-output*)
+        (line nil))
+    (let ((*error-output* (make-broadcast-stream)))
+      (handler-bind ((warning (lambda (condition)
+                                (unless (typep condition 'sb-kernel:redefinition-warning)
+                                  (format errors "~&~a~@[:~d~]: warning: ~a~%" file line
+                                          (condition-sentence condition)))
+                                (muffle-warning condition))))
+        (funcall function (lambda (new-line) (setf line new-line)))))))
+
+(defun evaluate-form (form file line)
+  "Evaluate FORM, which begins at LINE of FILE; an error is a SOURCE-ERROR if it does not say itself
+where it is."
+  (handler-bind ((error (lambda (condition)
+                          (unless (self-explaining-p condition)
+                            (loading-problem condition (uiop:native-namestring file) line)))))
+    ;; A plan file is code: this is its loader.
+    (let ((*load-pathname* file) (*load-truename* (truename file)))
+      (eval form))))
 
 (defun load-source (file &key (package *package*))
   "Read the forms of FILE in PACKAGE and evaluate each before the next is read, as LOAD does.
 Return the true name of FILE.  Signals SOURCE-ERROR, which names file and line, also for an error
 that occurs while a form is evaluated."
-  (let* ((file (native-path file))
-         (name (uiop:native-namestring file)))
-    (map-forms
-     (lambda (form line)
-       (handler-bind
-           ((error (lambda (condition)
-                     ;; Errors that say file and line themselves pass.
-                     (unless (self-explaining-p condition)
-                       (loading-problem condition name line)))))
-         ;; A plan file is code: this is its loader.
-         (let ((*load-pathname* file) (*load-truename* (truename file)))
-           (evaluate-form form))))
-     file package)
+  (let ((file (native-path file)))
+    (call-with-warning-lines
+     (lambda (note-line)
+       ;; Functions that a later form defines are not undefined.
+       (with-compilation-unit (:override t)
+         (map-forms (lambda (form line)
+                      (funcall note-line line)
+                      (evaluate-form form file line))
+                    file package)
+         (funcall note-line nil)))
+     (uiop:native-namestring file))
     (truename file)))

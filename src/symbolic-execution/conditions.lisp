@@ -1,3 +1,5 @@
+;;;; What can go wrong when plans are executed symbolically.
+
 (in-package #:discrepancy-finder.symbolic-execution)
 
 (define-condition symbolic-execution-error (error)
@@ -30,6 +32,16 @@ know."))
                                had met ~a."
                        plan found expected))))
   (:documentation "Signaled when a replay of a path meets another decision than the recorded one."))
+
+(define-condition plan-broke (symbolic-execution-error)
+  ((plan :initarg :plan :reader plan-broke-plan :documentation "The plan's name.")
+   (error :initarg :error :reader plan-broke-error :documentation "The error."))
+  (:report (lambda (condition stream)
+             (let ((position (plan:plan-position (plan:find-plan (plan-broke-plan condition)))))
+               (format stream "~@[~a: ~]the plan ~(~a~) ends in an error: ~a"
+                       (and position (princ-to-string position)) (plan-broke-plan condition)
+                       (source:condition-sentence (plan-broke-error condition))))))
+  (:documentation "Signaled when a plan signals an error, not a failure, that it does not handle."))
 
 (define-condition action-problem (symbolic-execution-error)
   ((designator :initarg :designator :reader action-problem-designator

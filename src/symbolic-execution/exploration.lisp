@@ -17,6 +17,7 @@
               :documentation "List of (parameter type), in the order of the lambda list.")
    (max-paths :initarg :max-paths :reader exploration-max-paths)
    (max-steps :initarg :max-steps :reader exploration-max-steps)
+   (max-jumps :initarg :max-jumps :reader exploration-max-jumps)
    (context :initarg :context :reader exploration-context)
    (solver :initarg :solver :reader exploration-solver)
    (formula :initarg :formula :reader exploration-formula
@@ -95,10 +96,12 @@ UNSUPPORTED-FORM for another type than boolean and for parameters that do not fi
                                         :reason "only parameters of type boolean can be symbolic"))
           collect (list parameter type))))
 
-(defun make-exploration (plan domain &key constraint arguments (max-paths 10000) (max-steps 1000))
+(defun make-exploration (plan domain &key constraint arguments (max-paths 10000) (max-steps 1000)
+                                       (max-jumps 1000000))
   "Return an EXPLORATION of the plan named PLAN (a symbol) in DOMAIN (an ACTION-THEORY or its name).
 CONSTRAINT is a state constraint or its name; with NIL the theory's only one.  ARGUMENTS is a list
-of (parameter boolean).  MAX-PATHS and MAX-STEPS (performs on a path) bound the search.  Signals
+of (parameter boolean).  MAX-PATHS, MAX-STEPS (performs on a path) and MAX-JUMPS (iterations of
+loops and retries on a path) bound the search.  Signals
 PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
   (let* ((plan (plan:find-plan plan))
          (domain (if (typep domain 'action-theory) domain (find-action-theory domain)))
@@ -111,12 +114,22 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
          (context (z3:make-context)))
     (make-instance 'exploration
                    :plan plan :domain domain :constraint constraint :arguments arguments
-                   :max-paths max-paths :max-steps max-steps :formula formula
+                   :max-paths max-paths :max-steps max-steps :max-jumps max-jumps
+                   :formula formula
                    :context context :solver (z3:make-solver context))))
 
 (defun close-exploration (exploration)
   "Release the Z3 context of EXPLORATION; its traces stay."
   (z3:close-context (exploration-context exploration)))
+
+(defun call-plan (plan function arguments)
+  "Call FUNCTION with ARGUMENTS for the plan named PLAN.  An error that the plan does not handle is
+signaled as PLAN-BROKE, on top of the stack where it happened."
+  (handler-bind ((error (lambda (condition)
+                          (unless (typep condition '(or symbolic-execution-error z3:z3-error
+                                                     z3:solver-unknown plan:plan-error))
+                            (error 'plan-broke :plan plan :error condition)))))
+    (apply function arguments)))
 
 (defun run-plan-on (path function arguments)
   "Call FUNCTION, the interpreted plan, with ARGUMENTS on PATH and note how the run ends.  Signals
@@ -129,7 +142,7 @@ NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of the pr
     (unwind-protect
          (catch path
            (plan:with-executive (path)
-             (handler-case (progn (apply function arguments)
+             (handler-case (progn (call-plan (path-plan path) function arguments)
                                   (setf (path-ending path) :finished))
                (plan:plan-failure (failure)
                  (setf (path-ending path) (type-of failure))))))
@@ -138,6 +151,9 @@ NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of the pr
     (error 'nondeterministic-plan
            :plan (path-plan path) :found "its end"
            :expected (decision-description (first (path-prefix path))))))
+
+(defun note-gap (exploration control number)
+  (pushnew (format nil control number) (exploration-gaps exploration) :test #'string=))
 
 (defun run-path (exploration prefix)
   "Run the plan of EXPLORATION along PREFIX and return the trace of that path, or NIL."
@@ -150,7 +166,8 @@ NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of the pr
          (path (make-path :plan (plan:plan-name (exploration-plan exploration)) :domain domain
                           :solver solver :prefix prefix :states (list state)
                           :symbolic-p (and propositions t)
-                          :max-steps (exploration-max-steps exploration))))
+                          :max-steps (exploration-max-steps exploration)
+                          :jumps-left (exploration-max-jumps exploration))))
     (loop for (nil . proposition) in (ec:initial-conditions state)
           do (assume path proposition))
     (unless (or prefix (eq (z3:check solver) :sat))
@@ -164,8 +181,10 @@ NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of the pr
       (case (path-ending path)
         (:dead-end (incf (exploration-dead-ends exploration)))
         (:too-many-steps
-         (pushnew (format nil "paths of more than ~d steps" (exploration-max-steps exploration))
-                  (exploration-gaps exploration) :test #'string=)))
+         (note-gap exploration "paths of more than ~d steps" (exploration-max-steps exploration)))
+        (:too-many-jumps
+         (note-gap exploration "paths of more than ~d iterations"
+                   (exploration-max-jumps exploration))))
       (path-trace path (exploration-formula exploration)
                   (ec:state-constraint-span (exploration-constraint exploration))
                   propositions))))
@@ -194,8 +213,8 @@ error or an interrupt the path stays pending."
 twice.  Signals NONDETERMINISTIC-PLAN, UNSUPPORTED-FORM, SOLVER-UNKNOWN and what the plan signals."
   (loop while (exploration-pending exploration)
         do (when (>= (exploration-paths exploration) (exploration-max-paths exploration))
-             (pushnew (format nil "paths beyond the first ~d" (exploration-max-paths exploration))
-                      (exploration-gaps exploration) :test #'string=)
+             (note-gap exploration "paths beyond the first ~d"
+                       (exploration-max-paths exploration))
              (return nil))
            (let ((trace (next-path exploration)))
              (when (and trace (not (gethash (trace-text trace) (exploration-seen exploration))))
@@ -203,10 +222,11 @@ twice.  Signals NONDETERMINISTIC-PLAN, UNSUPPORTED-FORM, SOLVER-UNKNOWN and what
                (push trace (exploration-found exploration))
                (return trace)))))
 
-(defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps)
+(defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps
+                                          max-jumps)
   "Return an EXPLORATION that has found every trace of PLAN in DOMAIN and holds no foreign memory.
 The options are those of MAKE-EXPLORATION."
-  (declare (ignore constraint arguments max-paths max-steps))
+  (declare (ignore constraint arguments max-paths max-steps max-jumps))
   (let ((exploration (apply #'make-exploration plan domain (alexandria:remove-from-plist
                                                             options :domain))))
     (unwind-protect (loop while (next-trace exploration))

@@ -27,4 +27,5 @@
    #:symbolic-boolean #:symbolic-boolean-proposition
    ;; conditions
    #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
-   #:action-problem #:domain-not-found))
+   #:action-problem #:domain-not-found
+   #:plan-broke #:plan-broke-plan #:plan-broke-error #:call-plan))

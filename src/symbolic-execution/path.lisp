@@ -14,6 +14,7 @@
 
 (defstruct (path (:copier nil))
   "A symbolic run.  Lists are in reverse order but for PREFIX, what is still to be repeated.
+MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries.
 SYMBOLIC-P is true if the plan has symbolic arguments; HANDLERS are the condition handlers outside
 of the plan."
   (plan nil :read-only t)
@@ -26,6 +27,7 @@ of the plan."
   (steps '() :type list)
   (journal '() :type list)
   (max-steps 1000 :type (integer 0) :read-only t)
+  (jumps-left 0 :type fixnum)
   (symbolic-p nil :type boolean :read-only t)
   (handlers nil)
   (ending nil))
@@ -52,6 +54,11 @@ if they unwind the run counts as ended, so that no cleanup form of the plan runs
            (multiple-value-prog1 (progn ,@body)
              (when (eq (path-ending ,run) :error)
                (setf (path-ending ,run) nil))))))))
+
+(defun count-jump (path)
+  "Count a jump in a loop of the plan; abandon PATH after too many."
+  (when (minusp (decf (path-jumps-left path)))
+    (abandon path :too-many-jumps)))
 
 (defun assume (path proposition)
   (z3:solver-assert (path-solver path) proposition))

@@ -194,7 +194,9 @@
         (let* ((reader (frame-reader depth index))
                (key (find-if #'tags-p (nth depth (scope-frames scope))))
                (segment (1+ (position tag (rest key)))))
-          (lambda (frame) (throw (funcall reader frame) segment)))))))
+          (lambda (frame)
+            (when *path* (count-jump *path*))
+            (throw (funcall reader frame) segment)))))))
 
 (define-analyzer catch (form scope)
   (let ((tag (analyze (second form) scope)) (run (analyze-body (cddr form) scope)))

@@ -76,16 +76,29 @@
   (replay-problem-of ("\"execution\": \"trace\"" "\"execution\": \"fast\"") "execution")
   (replay-problem-of ("\"box-delivered\"" "\"box-lost\"") "box-lost")
   (replay-problem-of ("\"verdict\": \"discrepancy\"" "\"verdict\": \"maybe\"") "verdict")
+  (replay-problem-of ("\"final\": [" "\"final\": [3, ") "final")
+  (replay-problem-of ("\"step\": 2" "\"step\": 0") "step")
   (replay-problem-of ("}" "") ""))
 
 (test a-file-keeps-its-old-content-or-gets-the-new
   (uiop:with-temporary-file (:pathname path :type "json")
     (with-open-file (stream path :direction :output :if-exists :supersede)
       (write-string "old" stream))
-    (signals error (discrepancy::write-file-whole path :not-a-string))
-    (is (string= "old" (uiop:read-file-string path)))
-    (discrepancy::write-file-whole path "new")
-    (is (string= "new" (uiop:read-file-string path)))))
+    (let ((file (namestring path)))
+      (signals error (discrepancy::write-file-whole file :not-a-string))
+      (is (string= "old" (uiop:read-file-string path)))
+      (discrepancy::write-file-whole file "new")
+      (is (string= "new" (uiop:read-file-string path)))))
+  (signals-with (df:replay-error "/no/such/folder/x.json" "cannot be written")
+    (discrepancy::write-file-whole "/no/such/folder/x.json" "text"))
+  (signals-with (df:replay-error "folder")
+    (discrepancy::write-file-whole (namestring (uiop:temporary-directory)) "text"))
+  (uiop:with-temporary-file (:pathname path)
+    (let ((plain (format nil "~a-plain" (namestring path))))
+      (unwind-protect
+           (progn (discrepancy::write-file-whole plain "text")
+                  (is (string= "text" (uiop:read-file-string plain)) "a name without a type"))
+        (uiop:delete-file-if-exists plain)))))
 
 (test a-stored-discrepancy-names-what-it-depends-on
   (with-stored-discrepancy (file discrepancy)
