@@ -43,13 +43,13 @@ pattern."
   (let ((path (native-path file)))
     (flet ((problem (reason)
              (error 'source-error :file (uiop:native-namestring path) :reason reason)))
+      (when (uiop:directory-exists-p (uiop:ensure-directory-pathname path))
+        (problem "it is a folder"))
       (handler-case
           ;; Some editors begin a file with a byte order mark.
           (string-left-trim '(#\Zero_width_no-break_space)
                             (uiop:read-file-string path :external-format :utf-8))
-        (file-error () (problem (cond ((uiop:directory-exists-p path) "it is a folder")
-                                      ((uiop:file-exists-p path) "it cannot be read")
-                                      (t "no such file"))))
+        (file-error () (problem (if (uiop:file-exists-p path) "it cannot be read" "no such file")))
         (stream-error () (problem "it is not a UTF-8 text"))))))
 
 (defun line-starts (text)
