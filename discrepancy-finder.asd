@@ -168,7 +168,10 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "run") (:file "fixtures")
                (:file "geometry") (:file "source") (:file "json") (:file "z3") (:file "z3-life")
-               (:file "event-calculus") (:file "plan-language") (:file "symbolic-execution")
+               (:file "event-calculus") (:file "plan-language")
+               (:module "symbolic-execution"
+                :serial t
+                :components ((:file "evaluator") (:file "exploration")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "projection")
                (:module "discrepancy"

@@ -1,7 +1,8 @@
 ;;;; The benchmarks of `discrepancy-finder bench`.
 ;;;;
-;;;; Times are of the wall clock, on a machine that others may use, too: of several rounds the
-;;;; median counts, and where there is a peer it runs in turn with us and the ratio is what counts.
+;;;; The machine may have other users: of several rounds the median counts, and where there is a
+;;;; peer it runs in turn with us, in short rounds, and the ratio of processor times, pair by pair,
+;;;; is what to look at.  Other times are of the wall clock.
 
 (in-package #:discrepancy-finder.bench)
 
@@ -50,7 +51,7 @@ counted."
                         :error-output *error-output*))
     program))
 
-(defun compare-steps (&key (rounds 9) (steps 60000))
+(defun compare-steps (&key (rounds 31) (steps 20000))
   "Return the median steps/s through Lisp and in plain C++, and the median ratio of the times, pair
 by pair."
   (let ((program (compiled-peer)) (ours '()) (theirs '()))

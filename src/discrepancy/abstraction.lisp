@@ -2,8 +2,8 @@
 ;;;;
 ;;;; A REGION is a box that bounds some of the coordinates x, y, z (m) and yaw (rad), each
 ;;;; half-open, so that a shared border belongs to one region.  Observers connect fluents to the
-;;;; world: a PLACEMENT says that a body's pose lies in a region, an ATTACHMENT that the robot holds an
-;;;; item.
+;;;; world: a PLACEMENT says that a body's pose lies in a region, an ATTACHMENT that the robot holds
+;;;; an item.
 ;;;; A DOMAIN is an action theory with a scene, regions and observers; DEFINE-ABSTRACTION makes one.
 
 (in-package #:discrepancy-finder.discrepancy)

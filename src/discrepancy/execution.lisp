@@ -170,8 +170,8 @@ a sentence that says why not."
           '(simple-array double-float (*))))
 
 (defun run-monitored (monitor plan arguments)
-  "Run the function of PLAN (a symbol) under MONITOR and return how it ended.  Random numbers are the
-same in every run, and the same as in symbolic execution."
+  "Run the function of PLAN (a symbol) under MONITOR and return how it ended.  Random numbers are
+the same in every run, and the same as in symbolic execution."
   (let ((*random-state* (sb-ext:seed-random-state 0))
         (*gensym-counter* 0))
     (catch monitor

@@ -154,8 +154,8 @@ the initial state is not one of the trace any more."
 
 (defun replay (file)
   "Run the discrepancy stored in FILE again and return a REPLAY-RESULT.  Reading FILE evaluates
-nothing; but the plan and the domain that it names, which are code, are loaded from the files that it
-names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
+nothing; but the plan and the domain that it names, which are code, are loaded from the files that
+it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
   (destructuring-bind (&key plan domain parameters trace constraint execution compare (seed 0)
                          sample recorded changed-files)
       (read-replay-file file)

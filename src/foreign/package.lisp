@@ -8,6 +8,6 @@ closing it before an image is saved, and calling into it with the float traps of
    ;; libraries
    #:define-library #:open-libraries #:close-libraries #:library-directory
    ;; time
-   #:monotonic-nanoseconds #:monotonic-seconds
+   #:monotonic-nanoseconds #:monotonic-seconds #:processor-seconds
    ;; float traps
    #:with-c-float-traps))

@@ -23,7 +23,8 @@
                 #:exploration-complete-p #:exploration-paths #:exploration-gaps
                 #:trace-initial-state #:trace-steps #:trace-final-state #:execution-trace
                 #:plan-broke
-                #:symbolic-execution-error #:plan-broke #:unsupported-form #:nondeterministic-plan #:domain-not-found #:action-problem)
+                #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
+                #:domain-not-found #:action-problem)
   (:import-from #:discrepancy-finder.discrepancy
                 #:define-abstraction #:load-domain #:domain
                 #:find-discrepancies #:search-result #:result-status #:result-reason
@@ -67,7 +68,8 @@
    #:plan-error #:plan-not-found #:malformed-plan-form #:designator-not-understood
    #:domain-not-found #:source-error #:scene-error #:urdf-error
    #:projection-error #:unknown-parameter #:impossible-parameter #:unknown-body
-   #:symbolic-execution-error #:plan-broke #:unsupported-form #:nondeterministic-plan #:action-problem
+   #:symbolic-execution-error #:plan-broke #:unsupported-form #:nondeterministic-plan
+   #:action-problem
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:invalid-confidence #:unknown-confidence-rule #:invalid-argument
    #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat

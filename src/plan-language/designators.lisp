@@ -2,8 +2,8 @@
 ;;;;
 ;;;; (a motion (type going) (pose ?goal)) makes one.  Its keys and the symbols in its values become
 ;;;; keywords, symbols that begin with ? are variables, numbers and strings stand for themselves,
-;;;; a nested (an object ...) is a designator, any other list a list.  (when ?x (key value)) is there
-;;;; only if ?x is true.  DESIG-PROP-VALUE reads them.
+;;;; a nested (an object ...) is a designator, any other list a list.  (when ?x (key value)) is
+;;;; there only if ?x is true.  DESIG-PROP-VALUE reads them.
 
 (in-package #:discrepancy-finder.plan-language)
 

@@ -201,7 +201,8 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
           (scene-problem file form "two parameters have the same name")))
       (unless (<= (count :robot parts :key #'scene-part-kind) 1)
         (scene-problem file form "there can be one robot only"))
-      (make-scene :name (source:name-keyword name) :documentation documentation :file (namestring file)
+      (make-scene :name (source:name-keyword name) :documentation documentation
+                  :file (namestring file)
                   :parts (nreverse parts) :parameters parameters))))
 
 (defun load-scene (file)

@@ -35,8 +35,8 @@ read by READ-SOURCE or LOAD-SOURCE."
   (values (gethash form *positions*)))
 
 (defun native-path (file)
-  "Return the pathname of FILE; a string is taken by its characters, so that a bracket in it makes no
-pattern."
+  "Return the pathname of FILE; a string is taken by its characters, so that a bracket in it makes
+no pattern."
   (if (stringp file) (uiop:parse-native-namestring file) file))
 
 (defun file-text (file)

@@ -16,7 +16,8 @@
    ;; exploration
    #:explore-plan #:make-exploration #:next-trace #:exploration #:exploration-traces
    #:exploration-paths #:exploration-checks #:exploration-seconds #:exploration-complete-p
-   #:exploration-gaps #:exploration-dead-ends #:exploration-consistent-p #:exploration-plan #:exploration-domain
+   #:exploration-gaps #:exploration-dead-ends #:exploration-consistent-p #:exploration-plan
+   #:exploration-domain
    #:exploration-constraint #:close-exploration
    ;; traces
    #:trace-initial-state #:trace-steps #:trace-states #:trace-final-state #:execution-trace

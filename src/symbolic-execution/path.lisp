@@ -169,8 +169,8 @@ conses, which the list of an &rest parameter may be, and in what an interpreted 
     (t value)))
 
 ;;; Side effects on global variables are undone between runs.  The journal is a list of
-;;; (symbol . restoring function).  A write to a variable that the plan has bound itself is forgotten
-;;; when the binding ends.
+;;; (symbol . restoring function).  A write to a variable that the plan has bound itself is
+;;; forgotten when the binding ends.
 
 (defun note-write (symbol)
   "Remember the value of SYMBOL, so that it can be restored after the run."

@@ -2,9 +2,9 @@
 ;;;;
 ;;;; An EXECUTION-TRACE has a concrete initial state, the steps that the plan performs from it, and
 ;;;; the states that follow by the theory.  It is made from a path on which a state constraint comes
-;;;; true, cut after the last timepoint at which it does; the path may go on to a failure, or to where
-;;;; the theory allows nothing.  The initial state is the least that the path allows, with false
-;;;; before true in the order of the fluents: a function of the path alone.
+;;;; true, cut after the last timepoint at which it does; the path may go on to a failure, or to
+;;;; where the theory allows nothing.  The initial state is the least that the path allows, with
+;;;; false before true in the order of the fluents: a function of the path alone.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
