@@ -12,7 +12,7 @@
  * The float environment of the caller is put aside during each call, so that a caller may keep
  * float traps on.  No exception leaves this library, and it has no state outside of the worlds:
  * any thread may use a world, one thread at a time; different worlds need no lock.  Equal calls in
- * equal order give equal bits; queries (reads, rays, penetrations) change no later bit.
+ * equal order give equal bits; queries (reads, penetrations) change no later bit.
  */
 #ifndef DISCREPANCY_FINDER_BULLET_H
 #define DISCREPANCY_FINDER_BULLET_H
@@ -33,11 +33,11 @@ enum dfb_status {
   DFB_BAD_BODY = -2,        /* no body has this id, or two bodies are the same one */
   DFB_BAD_SHAPE = -3,       /* no shape has this id, or it cannot be used here */
   DFB_BAD_CONSTRAINT = -4,  /* no live attachment has this id */
-  DFB_BAD_NUMBER = -5,      /* not finite, not positive, not of unit length, a ray of no length */
+  DFB_BAD_NUMBER = -5,      /* not finite, not positive, not of unit length */
   DFB_BAD_KIND = -6,        /* the kind of the body does not allow it */
   DFB_TOO_SMALL = -7,       /* the output has no room for the result */
   DFB_NO_MEMORY = -8,
-  DFB_NOTHING = -9          /* the ray meets no body; no two bodies penetrate each other */
+  DFB_NOTHING = -9          /* no two bodies penetrate each other */
 };
 
 enum dfb_kind { DFB_STATIC = 0, DFB_DYNAMIC = 1, DFB_KINEMATIC = 2 };
@@ -110,11 +110,6 @@ DFB_API int dfb_penetration(dfb_world *world, int a, int b, double *depth);
 /* Find the deepest penetration of a pair that collides and has a dynamic body: write its depth and
  * the two bodies, or return DFB_NOTHING. */
 DFB_API int dfb_deepest_penetration(dfb_world *world, double *depth, int *a, int *b);
-/* Return the first body on the segment between two points, which starts outside of it, or
- * DFB_NOTHING; write the fraction of the segment and the point of the hit (m): 4 doubles. */
-DFB_API int dfb_ray(dfb_world *world, double fx, double fy, double fz, double tx, double ty,
-                    double tz, double *hit);
-
 #ifdef __cplusplus
 }
 #endif

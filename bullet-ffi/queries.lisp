@@ -1,4 +1,4 @@
-;;;; Queries: states of whole worlds, rest, penetrations, rays.  None changes a later bit.
+;;;; Queries: states of whole worlds, rest, penetrations.  None changes a later bit.
 ;;;;
 ;;;; A state vector has thirteen double floats for each body, in the order in which the bodies were
 ;;;; added: position (m), quaternion x y z w, linear velocity (m/s), angular velocity (rad/s).
@@ -58,31 +58,3 @@ Signals BULLET-ERROR if WORLD is closed."
             (:nothing (return-from deepest-penetration (values 0d0 nil nil)))))))
     (flet ((body (index) (aref (world-body-vector world) (aref ids index))))
       (values (aref depth 0) (body 0) (body 1)))))
-
-(defun point-numbers (point)
-  "Return the three coordinates of POINT, a list of reals."
-  (if (and (eql (ignore-errors (list-length point)) 3) (every #'realp point))
-      (destructuring-bind (x y z) point
-        (flet ((coordinate (value) (number-of "a coordinate of the ray" value 'cast-ray)))
-          (values (coordinate x) (coordinate y) (coordinate z))))
-      (fail 'cast-ray "the point ~s is no list of three numbers" point)))
-
-(defun cast-ray (world from to)
-  "Return the first body of WORLD on the segment between the points FROM and TO, which are lists of
-three reals (m), and as further values the point where the segment enters it and the fraction of
-the segment there; or NIL.  A body that holds FROM inside is not seen.  Signals BULLET-ERROR if a
-coordinate is not finite, the segment has no length or WORLD is closed."
-  (let ((hit (make-array 4 :element-type 'double-float)))
-    (declare (dynamic-extent hit))
-    (multiple-value-bind (fx fy fz) (point-numbers from)
-      (declare (double-float fx fy fz))
-      (multiple-value-bind (tx ty tz) (point-numbers to)
-        (declare (double-float tx ty tz))
-        (let ((id (cffi:with-pointer-to-vector-data (hit-pointer hit)
-                    (invoke ('cast-ray pointer world)
-                        (%ray pointer fx fy fz tx ty tz hit-pointer)
-                      (:bad-number (format nil "the ray from ~s to ~s has no length" from to))
-                      (:nothing (return-from cast-ray nil))))))
-          (values (aref (world-body-vector world) id)
-                  (list (aref hit 1) (aref hit 2) (aref hit 3))
-                  (aref hit 0)))))))

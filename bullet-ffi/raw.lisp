@@ -62,12 +62,3 @@ seven doubles of a pose."
   (world :pointer) (a :int) (b :int) (depth :pointer))
 (define-raw %deepest-penetration "dfb_deepest_penetration" :int
   (world :pointer) (depth :pointer) (a :pointer) (b :pointer))
-(define-raw %ray "dfb_ray" :int
-  (world :pointer) (fx :double) (fy :double) (fz :double) (tx :double) (ty :double) (tz :double)
-  (hit :pointer))
-
-(defun status-name (status)
-  "Return the keyword for a negative STATUS of the shim."
-  (ecase status
-    (-1 :bad-world) (-2 :bad-body) (-3 :bad-shape) (-4 :bad-constraint) (-5 :bad-number)
-    (-6 :bad-kind) (-7 :too-small) (-8 :no-memory) (-9 :nothing)))

@@ -1,4 +1,4 @@
-;;;; Tests of the Bullet layer: equal bits, states, penetrations, rays.
+;;;; Tests of the Bullet layer: equal bits, states, penetrations.
 
 (in-package #:discrepancy-finder.tests)
 
@@ -21,7 +21,6 @@
         (discrepancy-finder.bullet:step-world world)
         (when queries
           (discrepancy-finder.bullet:deepest-penetration world)
-          (discrepancy-finder.bullet:cast-ray world '(0 0 3) (list (* 0.001d0 i) 0 -1))
           (discrepancy-finder.bullet:at-rest-p world)))
       (discrepancy-finder.bullet:state-hash world)))
   "A function that can be sent to another process.")
@@ -108,40 +107,3 @@
       (is (eq floor (nth-value 2 (bullet:deepest-penetration world))))
       (bullet:place-body a (geometry:make-pose 0 0 1))
       (is (equal '(0d0 nil nil) (multiple-value-list (bullet:deepest-penetration world)))))))
-
-(defun hit-p (expected point world from to)
-  (multiple-value-bind (body hit fraction) (bullet:cast-ray world from to)
-    (and (eq expected body)
-         (every (lambda (x y) (near x 1d-9 y)) point hit)
-         (every (lambda (a b x) (near x 1d-9 (+ a (* fraction (- b a))))) from to point))))
-
-(test rays-hit-exactly
-  (bullet:with-world (world)
-    (let* ((floor (add-floor world))
-           (box (bullet:add-body world :box '(:box 0.2d0 0.4d0 0.6d0)
-                                 (geometry:make-pose 1 0 0.3d0 :yaw (/ pi 2))))
-           (ball (bullet:add-body world :ball '(:sphere 0.1d0) (geometry:make-pose 2 0 1)))
-           (can (bullet:add-body world :can '(:cylinder 0.1d0 0.4d0) (geometry:make-pose 3 0 1)))
-           (pair (bullet:add-body world :pair
-                                  (list :compound
-                                        (list (geometry:make-pose 0 0 0.5d0) '(:sphere 0.1d0))
-                                        (list (geometry:make-pose 0 0 -0.5d0) '(:box 1 1 0.2d0)))
-                                  (geometry:make-pose 5 0 1)))
-           (mover (bullet:add-body world :mover '(:box 1 1 1) (geometry:make-pose 0 9 1)
-                                   :kind :kinematic)))
-      (is-true (hit-p box '(0.8d0 0 0.3d0) world '(0 0 0.3d0) '(4 0 0.3d0)))
-      (is-true (hit-p box '(1.2d0 0.05d0 0.3d0) world '(4 0.05d0 0.3d0) '(0 0.05d0 0.3d0)))
-      (is-true (hit-p box '(1 0 0.6d0) world '(1 0 5) '(1 0 -5)))
-      (is-true (hit-p ball (list (- 2 (sqrt 0.0075d0)) 0 1.05d0)
-                      world '(1 0 1.05d0) '(2.5d0 0 1.05d0)))
-      (is-true (hit-p can '(2.9d0 0 1.1d0) world '(2.5d0 0 1.1d0) '(9 0 1.1d0)))
-      (is-true (hit-p can '(3.05d0 0 1.2d0) world '(3.05d0 0 2) '(3.05d0 0 0)))
-      (is-true (hit-p pair '(5 0 1.6d0) world '(5 0 3) '(5 0 0)))
-      (is-true (hit-p pair '(4.5d0 0 0.5d0) world '(4 0 0.5d0) '(6 0 0.5d0)))
-      (is-true (hit-p floor '(7 0 0) world '(7 0 1) '(7 0 -1)))
-      (bullet:move-body mover (geometry:make-pose 0 -9 1))
-      (is-true (hit-p mover '(0 -9 1.5d0) world '(0 -9 3) '(0 -9 0)))
-      (is (eq floor (bullet:cast-ray world '(0 9 3) '(0 9 -1))))
-      (is (equal '(nil) (multiple-value-list (bullet:cast-ray world '(7 0 2) '(7 0 1)))))
-      (is (null (bullet:cast-ray world '(2 0 1) '(2 0 0.95d0)))
-          "A body that holds the start is not seen."))))

@@ -12,14 +12,15 @@
 
 (defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps)
   "Return an EXPLORATION that has found every trace of PLAN (a symbol) in DOMAIN (a domain or its
-name) on which the state constraint named CONSTRAINT (NIL: the theory's only one) comes true;
-DESCRIBE lists them.  ARGUMENTS is a list of (parameter boolean), the plan's symbolic arguments;
+name) on which the state constraint named CONSTRAINT (NIL: the theory's only one) comes true, and
+the list of these traces; DESCRIBE shows them in full.  ARGUMENTS is a list of (parameter boolean), the plan's symbolic arguments;
 MAX-PATHS and MAX-STEPS bound the search.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
 STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM, NONDETERMINISTIC-PLAN, SOLVER-UNKNOWN."
   (declare (ignore constraint arguments max-paths max-steps))
-  (apply #'symbolic:explore-plan (plan:plan-name (discrepancy:ensure-plan plan))
-         :domain (discrepancy:ensure-domain domain)
-         (alexandria:remove-from-plist options :domain)))
+  (let ((exploration (apply #'symbolic:explore-plan (plan:plan-name (discrepancy:ensure-plan plan))
+                            :domain (discrepancy:ensure-domain domain)
+                            (alexandria:remove-from-plist options :domain))))
+    (values exploration (exploration-traces exploration))))
 
 (defun demo (&key (seed 1) (stream *standard-output*) (command "./discrepancy-finder"))
   "Run both variants of Example 1 with SEED, print their reports and what one sees to STREAM, and
