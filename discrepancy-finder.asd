@@ -180,7 +180,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "confidence") (:file "abstraction") (:file "search")
                              (:file "replay")))
                (:file "interface") (:file "readme")
-               (:file "documentation"))
+               (:file "documentation") (:file "compilation"))
   :perform (asdf:test-op (operation system)
              (uiop:symbol-call '#:discrepancy-finder.tests '#:run-all-tests)))
 

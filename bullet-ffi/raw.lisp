@@ -62,3 +62,10 @@ seven doubles of a pose."
   (world :pointer) (a :int) (b :int) (depth :pointer))
 (define-raw %deepest-penetration "dfb_deepest_penetration" :int
   (world :pointer) (depth :pointer) (a :pointer) (b :pointer))
+
+
+(defun status-name (status)
+  "Return the keyword for a negative STATUS of the shim."
+  (ecase status
+    (-1 :bad-world) (-2 :bad-body) (-3 :bad-shape) (-4 :bad-constraint) (-5 :bad-number)
+    (-6 :bad-kind) (-7 :too-small) (-8 :no-memory) (-9 :nothing)))
