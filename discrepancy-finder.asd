@@ -141,7 +141,8 @@ The environment variable CXX names another compiler than g++."))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
-  :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "xmls")
+  :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "alexandria"
+               "xmls")
   :pathname "src/projection/"
   :serial t
   :components ((:file "package") (:file "conditions") (:file "urdf") (:file "scene")

@@ -131,7 +131,9 @@
       (make-attachment :atom atom :item (ec:name-keyword item)))))
 
 (defun relative-file (file directory)
-  (namestring (if directory (merge-pathnames file directory) file)))
+  (source:native-name (if directory
+                          (merge-pathnames (source:native-path file) directory)
+                          file)))
 
 (defun check-clauses (name clauses)
   (dolist (clause clauses)
@@ -175,7 +177,7 @@
         (make-instance
          'domain
          :name (ec:name-keyword name) :documentation documentation :theory theory :scene scene
-         :regions regions :file (and file (namestring file))
+         :regions regions :file (and file (source:native-name file))
          :observers (append (loop for clause in (clauses :placement)
                                   collect (parse-placement name clause theory scene regions))
                             (loop for clause in (clauses :attachment)
@@ -204,5 +206,5 @@ and what DEFINE-ABSTRACTION signals."
     (source:load-source file :package '#:discrepancy-finder-user)
     (let ((new (set-difference (symbolic:all-action-theories) before)))
       (or (first new)
-          (error 'source:source-error :file (namestring file)
+          (error 'source:source-error :file (source:native-name file)
                                       :reason "it defines no domain (define-abstraction ...)")))))

@@ -85,15 +85,14 @@ the class of an unhandled failure."
              :documentation "The condition handlers from outside the plan.")
    (ending :initform nil :accessor monitor-ending
            :documentation "Why the run is being left, or NIL.")
+   (fatal :initform nil :accessor monitor-fatal
+          :documentation "The error that ends the run, or NIL.")
    (steps :initform '() :accessor monitor-steps :documentation "Newest first."))
   (:documentation "The executive of a recorded run."))
 
 (defun leave-run (monitor ending)
-  "Leave the run of MONITOR.  If it is being left already, which the plan's cleanup forms may not
-notice, that goes on."
-  (unless (monitor-ending monitor)
-    (setf (monitor-ending monitor) ending))
-  (throw monitor (monitor-ending monitor)))
+  "Leave the run of MONITOR; ENDING, a keyword, says why."
+  (throw monitor (setf (monitor-ending monitor) ending)))
 
 (defun fitting-outcomes (outcomes failure)
   "Return those of OUTCOMES that FAILURE, a condition or NIL for success, can be."
@@ -136,16 +135,18 @@ and the result."
     (values failure result)))
 
 (defmethod plan:perform-with ((monitor monitor) designator position)
-  (when (monitor-ending monitor)
-    (leave-run monitor (monitor-ending monitor)))
-  (when (>= (length (monitor-steps monitor)) *step-limit*)
-    (leave-run monitor :too-many-steps))
-  (multiple-value-bind (failure result)
-      (plan:with-handlers ((monitor-handlers monitor))
-        (perform-recorded monitor designator position))
-    (if failure
-        (plan:fail failure)
-        result)))
+  (cond ((monitor-fatal monitor) nil)   ; an error unwinds: let it go on
+        ((monitor-ending monitor) (throw monitor (monitor-ending monitor)))
+        ((>= (length (monitor-steps monitor)) *step-limit*) (leave-run monitor :too-many-steps))
+        (t
+         (multiple-value-bind (failure result)
+             (plan:with-handlers ((monitor-handlers monitor))
+               (handler-bind ((error (lambda (condition)
+                                       (setf (monitor-fatal monitor) condition))))
+                 (perform-recorded monitor designator position)))
+           (if failure
+               (plan:fail failure)
+               result)))))
 
 (defun sample-validity (projection trace state)
   "Return :VALID if the settled PROJECTION with the discrete STATE is an initial state of TRACE, or
@@ -174,10 +175,17 @@ a sentence that says why not."
 the same in every run, and the same as in symbolic execution."
   (let ((*random-state* (sb-ext:seed-random-state 0))
         (*gensym-counter* 0))
-    (catch monitor
-      (plan:with-executive (monitor)
-        (handler-case (progn (symbolic:call-plan plan plan arguments) :finished)
-          (plan:plan-failure (failure) (type-of failure)))))))
+    (prog1 (catch monitor
+             (plan:with-executive (monitor)
+               (handler-case
+                   (progn (symbolic:call-plan plan plan arguments
+                                              (lambda (condition)
+                                                (setf (monitor-fatal monitor) condition)))
+                          :finished)
+                 (plan:plan-failure (failure) (type-of failure)))))
+      ;; A cleanup form may have replaced the unwinding by a way out of its own.
+      (when (monitor-fatal monitor)
+        (error (monitor-fatal monitor))))))
 
 (defun execute-sample (domain plan sample &key trace (execution :trace) arguments
                                             (output (make-broadcast-stream)))
@@ -216,9 +224,10 @@ the same bits, provided that the plan does not read global variables that it wri
 
 (defun check-state-argument (state)
   "Signal INVALID-ARGUMENT unless STATE is a list of (body axis value ...)."
-  (unless (and (listp state)
+  (unless (and (alexandria:proper-list-p state)
                (every (lambda (entry)
-                        (and (consp entry) (symbolp (first entry)) (oddp (length entry))))
+                        (and (alexandria:proper-list-p entry) (oddp (length entry))
+                             (symbolp (first entry))))
                       state))
     (error 'invalid-argument :name 'state :value state
                              :expected "a list of (body axis number ...)")))
@@ -239,7 +248,7 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, UNKNOWN-BODY, UNKNOWN-PARAMETER, INVALID-ARGUM
                                    (error 'invalid-argument
                                           :name 'state :value (list body axis value)
                                           :expected "(body axis number)"))
-                                 (projection:scene-body-pose (domain-scene domain) body)
+                                 (projection:check-movable (domain-scene domain) body)
                                  (push (decimal-double value) values)
                               collect (make-parameter (ec:name-keyword body) axis
                                                       (decimal-double value)

@@ -83,16 +83,28 @@ cannot have the truth value OBSERVED in STATE."
 ;;; A CANDIDATE is (state . condition): what may be the case after the steps so far, since a seen
 ;;; outcome can be one of several that the action binding lists.
 
+(defun add-candidate (state condition candidates)
+  "Return CANDIDATES with (STATE . CONDITION), which joins one of the same state if there is any."
+  (let ((same (find-if (lambda (candidate)
+                         (every #'eq (ec:state-values (car candidate)) (ec:state-values state)))
+                       candidates)))
+    (if same
+        (substitute (cons state (z3:disjunction (list (cdr same) condition))) same candidates)
+        (append candidates (list (cons state condition))))))
+
 (defun next-candidates (domain solver candidates outcomes)
   "Return the candidates after one of OUTCOMES, those that the theory allows."
-  (loop for (state . condition) in candidates
-        append (loop for outcome in outcomes
-                     for (next conditions) = (multiple-value-list
-                                              (symbolic:outcome-transition domain state outcome))
-                     for next-condition = (z3:conjunction (cons condition
-                                                                (mapcar #'cdr conditions)))
-                     when (consistent-p solver (list next-condition))
-                       collect (cons next next-condition))))
+  (let ((next-candidates '()))
+    (loop for (state . condition) in candidates
+          do (dolist (outcome outcomes)
+               (multiple-value-bind (next conditions)
+                   (symbolic:outcome-transition domain state outcome)
+                 (let ((next-condition (z3:conjunction (cons condition
+                                                             (mapcar #'cdr conditions)))))
+                   (when (consistent-p solver (list next-condition))
+                     (setf next-candidates
+                           (add-candidate next next-condition next-candidates)))))))
+    next-candidates))
 
 (defun observed-candidate (solver candidates observed)
   "Return the first of CANDIDATES whose state can be the one OBSERVED, or NIL."

@@ -237,16 +237,15 @@ loaded only for a file that has this form."
 
 (defun read-replay-file (file)
   "Return the property list that PARSE-REPLAY makes of FILE.  Signals REPLAY-ERROR."
-  (handler-case
-      (progn
-        (unless (uiop:file-exists-p file)
-          (replay-problem "no such file"))
-        (parse-replay (json:parse (uiop:read-file-string file :external-format :utf-8))
-                      (uiop:pathname-directory-pathname (truename file))))
-    (replay-fault (fault)
-      (error 'replay-error :file (namestring file) :reason (replay-fault-reason fault)))
-    (json:json-error (condition)
-      (error 'replay-error :file (namestring file)
-                           :reason (source:condition-sentence condition)))
-    (stream-error ()
-      (error 'replay-error :file (namestring file) :reason "it is not a UTF-8 text"))))
+  (let ((path (source:native-path file)))
+    (flet ((refuse (reason)
+             (error 'replay-error :file (source:native-name path) :reason reason)))
+      (cond ((uiop:directory-exists-p (uiop:ensure-directory-pathname path))
+             (refuse "it is a folder"))
+            ((not (uiop:file-exists-p path)) (refuse "no such file")))
+      (handler-case (parse-replay (json:parse (uiop:read-file-string path :external-format :utf-8))
+                                  (uiop:pathname-directory-pathname (truename path)))
+        (replay-fault (fault) (refuse (replay-fault-reason fault)))
+        (json:json-error (condition) (refuse (source:condition-sentence condition)))
+        (file-error () (refuse "it cannot be read"))
+        (stream-error () (refuse "it is not a UTF-8 text"))))))

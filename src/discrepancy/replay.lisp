@@ -91,22 +91,30 @@
             "divergence" (divergence-json (judgement-divergence
                                            (discrepancy-judgement discrepancy)))))))
 
+(defun write-to (path text)
+  (with-open-file (stream path :direction :output :if-exists :supersede :external-format :utf-8)
+    (write-string text stream)))
+
 (defun write-file-whole (file text)
-  "Write TEXT to FILE, a string, which either keeps its old content or gets all of the new.  Signals
-REPLAY-ERROR if that cannot be."
-  (let* ((temporary (format nil "~a.part~d" file (sb-unix:unix-getpid)))
-         (path (uiop:parse-native-namestring temporary)))
+  "Write TEXT to FILE, which either keeps its old content or gets all of the new.  A link stays one,
+and what is no regular file is written to as it is.  Signals REPLAY-ERROR if that cannot be."
+  (let* ((path (merge-pathnames (source:native-path file)))
+         (path (or (ignore-errors (truename path)) path))
+         (name (source:native-name path))
+         (temporary (format nil "~a.part~d" name (sb-unix:unix-getpid))))
     (flet ((problem (reason)
-             (error 'replay-error :file file :reason reason)))
-      (when (uiop:directory-exists-p (uiop:parse-native-namestring file :ensure-directory t))
+             (error 'replay-error :file (source:native-name file) :reason reason)))
+      (when (or (string= (source:native-name file) "") (uiop:directory-pathname-p path))
         (problem "it is a folder"))
-      (handler-case (with-open-file (stream path :direction :output :if-exists :supersede
-                                                 :external-format :utf-8)
-                      (write-string text stream))
-        (stream-error () (problem "it cannot be written"))
-        (file-error () (problem "it cannot be written")))
-      (unless (sb-unix:unix-rename temporary file)
-        (uiop:delete-file-if-exists path)
+      (handler-case
+          (if (member (sb-impl::native-file-kind name) '(nil :file))
+              (write-to (source:native-path temporary) text)
+              (with-open-file (stream path :direction :output :if-exists :append)
+                (write-string text stream)))
+        ((or stream-error file-error) () (problem "it cannot be written")))
+      (when (and (uiop:file-exists-p (source:native-path temporary))
+                 (not (sb-unix:unix-rename temporary name)))
+        (uiop:delete-file-if-exists (source:native-path temporary))
         (problem "it cannot be replaced")))))
 
 (defun default-file (discrepancy)
@@ -118,12 +126,12 @@ REPLAY-ERROR if that cannot be."
           (subseq (hash-text (run-hash (discrepancy-run discrepancy))) 0 8)))
 
 (defun save-discrepancy (discrepancy &optional file)
-  "Write DISCREPANCY to FILE, a string, and return it.  By default the file is in the folder
+  "Write DISCREPANCY to FILE and return the file's name.  By default the file is in the folder
 discrepancies/, under a name made of plan, seed and state hash.  Signals REPLAY-ERROR."
   (let ((file (or file (default-file discrepancy))))
     (write-file-whole file (format nil "~a~%" (json:encode (discrepancy-json discrepancy)
                                                            :pretty t)))
-    (setf (discrepancy-file discrepancy) file)))
+    (setf (discrepancy-file discrepancy) (source:native-name file))))
 
 ;;; Replaying
 
@@ -178,7 +186,7 @@ it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
                           :compare compare :seed seed :trace trace :sample sample :run run
                           :constraint constraint
                           :judgement judgement :confirmed-p same-bits
-                          :file (namestring file)))))))
+                          :file (source:native-name file)))))))
 
 (defun replay-text (result)
   "Return the report of the REPLAY-RESULT RESULT, a text of several lines."

@@ -194,7 +194,7 @@ return a SEARCH-RESULT.
   CONSTRAINT      the name of the state constraint; NIL: the theory's only one
   CONFIDENCE      in ]0, 1[, for the confidence RULE, a keyword such as :PAPER
   SEED            of the blind samples, an integer of 64 bits
-  BUDGET          the largest number of simulations
+  BUDGET          the largest number of simulations, but for the one that confirms a discrepancy
   PARAMETERS      property list of scene parameters that differ from the scene's
   ARGUMENTS       list of (parameter boolean), the plan's symbolic arguments
   EXECUTION       :TRACE or :PLAN, COMPARE :FINAL or :EVERY-STEP
@@ -203,13 +203,18 @@ return a SEARCH-RESULT.
 Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, INVALID-CONFIDENCE,
 UNKNOWN-CONFIDENCE-RULE, UNKNOWN-PARAMETER, IMPOSSIBLE-PARAMETER, INVALID-ARGUMENT, and what
 symbolic execution signals."
+  (check-argument 'plan plan (and plan (symbolp plan)) "the name of a plan")
+  (check-argument 'constraint constraint (symbolp constraint) "the name of a state constraint")
+  (check-argument 'max-paths max-paths (typep max-paths '(integer 1)) "a positive integer")
+  (check-argument 'parameters parameters (alexandria:proper-list-p parameters) "a property list")
+  (check-argument 'rule rule (symbolp rule) "the name of a confidence rule")
   (check-argument 'seed seed (typep seed '(unsigned-byte 64)) "an integer from 0 to 2^64 - 1")
   (check-argument 'budget budget (typep budget '(integer 1)) "a positive integer")
   (check-argument 'execution execution (member execution '(:trace :plan)) ":trace or :plan")
   (check-argument 'compare compare (member compare '(:final :every-step)) ":final or :every-step")
   (check-argument 'on-discrepancy on-discrepancy (member on-discrepancy '(:return :signal))
                   ":return or :signal")
-  (let* ((rule-object (make-confidence-rule rule :confidence confidence))
+  (let* ((rule-object (make-confidence-rule (ec:name-keyword rule) :confidence confidence))
          (plan (ensure-plan plan))
          (domain (ensure-domain domain))
          (parameters (projection:normalized-parameters (domain-scene domain) parameters))

@@ -208,7 +208,7 @@ THEORY-ERROR, which name file and line."
       (let ((operator (and (consp form) (symbolp (first form)) (name-keyword (first form)))))
         (flet ((problem (reason)
                  (error 'source:source-error
-                        :file (namestring file) :reason reason
+                        :file (source:native-name file) :reason reason
                         :line (let ((position (and (consp form) (source:form-position form))))
                                 (and position (source:source-position-line position))))))
           (case operator
@@ -217,7 +217,7 @@ THEORY-ERROR, which name file and line."
              (unless (and (consp (rest form)) (symbolp (second form)) (second form))
                (problem "define-theory needs a name"))
              (setf theory (register-theory
-                           (parse-theory (second form) (cddr form) :file (namestring file)
+                           (parse-theory (second form) (cddr form) :file (source:native-name file)
                                          :position (source:form-position form)))))
             (:define-state-constraint
              (unless theory (problem "a state constraint before its theory"))
@@ -228,4 +228,4 @@ THEORY-ERROR, which name file and line."
                                      was expected"
                                 (formula-text (if operator (first form) form)))))))))
     (or theory
-        (error 'source:source-error :file (namestring file) :reason "no define-theory in it"))))
+        (error 'source:source-error :file (source:native-name file) :reason "no define-theory in it"))))

@@ -176,18 +176,25 @@ subcommands takes a value."
   (format *error-output* "discrepancy-finder: ~a.~%"
           (string-right-trim "." (source:condition-sentence condition))))
 
+(defun leave (status)
+  "End the process with STATUS at once."
+  (sb-ext:exit :code status :abort t))
+
+(defun interrupted (condition)
+  "End the process after C-c, without unwinding: no cleanup form of a plan has a say."
+  (declare (ignore condition))
+  (format *error-output* "interrupted~%")
+  (finish-output *error-output*)
+  (leave 130))
+
 (defun call-with-exit-status (function)
   "Call FUNCTION, which returns an exit status; return that, or the status that an error means."
-  (handler-case (funcall function)
-    (sb-sys:interactive-interrupt () (format *error-output* "interrupted~%") 130)
+  (handler-case (handler-bind ((sb-sys:interactive-interrupt #'interrupted))
+                  (funcall function))
     ;; As if the signal of the broken pipe had ended the process.
     (sb-int:broken-pipe () 141)
     (z3:solver-unknown (condition) (complain condition) 3)
     (serious-condition (condition) (complain condition) 2)))
-
-(defun leave (status)
-  "End the process with STATUS at once."
-  (sb-ext:exit :code status :abort t))
 
 (defun terminate (&rest signal)
   (declare (ignore signal))

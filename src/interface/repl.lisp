@@ -10,13 +10,16 @@
 
 (discrepancy:use-data-directories (list (asdf:system-source-directory "discrepancy-finder")))
 
-(defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps)
+(defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps
+                                          max-jumps)
   "Return an EXPLORATION that has found every trace of PLAN (a symbol) in DOMAIN (a domain or its
 name) on which the state constraint named CONSTRAINT (NIL: the theory's only one) comes true, and
-the list of these traces; DESCRIBE shows them in full.  ARGUMENTS is a list of (parameter boolean), the plan's symbolic arguments;
-MAX-PATHS and MAX-STEPS bound the search.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
-STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM, NONDETERMINISTIC-PLAN, SOLVER-UNKNOWN."
-  (declare (ignore constraint arguments max-paths max-steps))
+the list of these traces; DESCRIBE shows them in full.  ARGUMENTS is a list of (parameter boolean),
+the plan's symbolic arguments; MAX-PATHS, MAX-STEPS (performs on a path) and MAX-JUMPS (iterations of
+loops and retries on a path) bound the search.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
+STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM, NONDETERMINISTIC-PLAN, PLAN-BROKE, ACTION-PROBLEM,
+SOLVER-UNKNOWN."
+  (declare (ignore constraint arguments max-paths max-steps max-jumps))
   (let ((exploration (apply #'symbolic:explore-plan (plan:plan-name (discrepancy:ensure-plan plan))
                             :domain (discrepancy:ensure-domain domain)
                             (alexandria:remove-from-plist options :domain))))

@@ -52,8 +52,8 @@ UNKNOWN-PARAMETER."
 (defun check-parameters (scene values)
   "Signal UNKNOWN-PARAMETER or IMPOSSIBLE-PARAMETER unless VALUES is a property list of SCENE's
 parameters and positive reals."
-  (unless (evenp (length values))
-    (error 'impossible-parameter :name (first (last values)) :value nil))
+  (unless (and (alexandria:proper-list-p values) (evenp (length values)))
+    (error 'impossible-parameter :name "list" :value values))
   (loop for (name value) on values by #'cddr
         do (unless (symbolp name)
              (error 'unknown-parameter :name name :scene (scene-name scene)
@@ -83,8 +83,14 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
   (or (find (source:name-keyword name) (scene-parts scene) :key #'scene-part-name)
       (error 'unknown-body :name name :scene (scene-name scene))))
 
+(defun check-movable (scene name)
+  "Signal UNKNOWN-BODY unless NAME, a symbol, names the robot or an item of SCENE."
+  (when (eq (scene-part-kind (scene-part scene name)) :fixture)
+    (error 'unknown-body :name name :scene (scene-name scene))))
+
 (defun scene-body-pose (scene name)
   "Return the pose at which SCENE has the robot or item NAME, a symbol.  Signals UNKNOWN-BODY."
+  (check-movable scene name)
   (scene-part-pose (scene-part scene name)))
 
 (defun parts-of-kind (scene kind)
@@ -112,7 +118,7 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
 
 (defun scene-problem (file form control &rest arguments)
   (let ((position (source:form-position form)))
-    (error 'scene-error :file (namestring file)
+    (error 'scene-error :file (source:native-name file)
                         :line (and position (source:source-position-line position))
                         :reason (apply #'format nil control arguments))))
 
@@ -159,7 +165,8 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
   (destructuring-bind (kind &optional name model-file &rest options) clause
     (unless (and (symbolp name) name (stringp model-file) (every #'consp options))
       (scene-problem file clause "(~(~s~) name \"file.urdf\" option*) was expected" kind))
-    (let ((model (read-urdf (merge-pathnames model-file file))))
+    (let ((model (read-urdf (merge-pathnames (source:native-path model-file)
+                                               (source:native-path file)))))
       (when (and (eq kind :item)
                  (not (and (= (length (urdf-model-links model)) 1)
                            (urdf-link-shape (first (urdf-model-links model)))
@@ -202,7 +209,7 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
       (unless (<= (count :robot parts :key #'scene-part-kind) 1)
         (scene-problem file form "there can be one robot only"))
       (make-scene :name (source:name-keyword name) :documentation documentation
-                  :file (namestring file)
+                  :file (source:native-name file)
                   :parts (nreverse parts) :parameters parameters))))
 
 (defun load-scene (file)
@@ -213,6 +220,6 @@ URDF-ERROR, which name the file."
                  (symbolp (first (first forms)))
                  (string= (first (first forms)) "DEFINE-SCENE")
                  (second (first forms)) (symbolp (second (first forms))))
-      (error 'scene-error :file (namestring file)
+      (error 'scene-error :file (source:native-name file)
                           :reason "one form (define-scene name clause*) was expected"))
     (parse-scene (first forms) file)))

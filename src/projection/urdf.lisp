@@ -210,8 +210,9 @@
 (defun read-urdf (file)
   "Return the URDF-MODEL in FILE.  Signals URDF-ERROR, which names the file and the element, if the
 file is missing, malformed, or uses what is not supported."
-  (let ((name (namestring file)))
-    (handler-case (parse-urdf (handler-case (uiop:read-file-string file :external-format :utf-8)
+  (let ((name (source:native-name file)))
+    (handler-case (parse-urdf (handler-case (uiop:read-file-string (source:native-path file)
+                                                     :external-format :utf-8)
                                 (file-error () (urdf-problem nil "no such file"))
                                 (stream-error () (urdf-problem nil "it is not a UTF-8 text")))
                               name)

@@ -8,7 +8,7 @@ form knows its file and line.")
    ;; names
    #:name-keyword
    ;; reading
-   #:read-source #:load-source
+   #:read-source #:load-source #:native-path #:native-name
    ;; taking data apart
    #:destructuring-or
    ;; conditions

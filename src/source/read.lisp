@@ -39,10 +39,14 @@ read by READ-SOURCE or LOAD-SOURCE."
 no pattern."
   (if (stringp file) (uiop:parse-native-namestring file) file))
 
+(defun native-name (file)
+  "Return the name of FILE, a string or a pathname, as the system knows it."
+  (uiop:native-namestring (native-path file)))
+
 (defun file-text (file)
   (let ((path (native-path file)))
     (flet ((problem (reason)
-             (error 'source-error :file (uiop:native-namestring path) :reason reason)))
+             (error 'source-error :file (native-name path) :reason reason)))
       (when (uiop:directory-exists-p (uiop:ensure-directory-pathname path))
         (problem "it is a folder"))
       (handler-case
@@ -129,7 +133,7 @@ list can contain itself are refused."
 (defun map-forms (function file package &key data)
   "Call FUNCTION with each form of FILE, read in PACKAGE, and the line where it begins.  DATA: the
 forms are not evaluated."
-  (let* ((name (uiop:native-namestring file))
+  (let* ((name (native-name file))
          (text (file-text file))
          (starts (line-starts text))
          (*package* (find-package package))
@@ -184,7 +188,7 @@ the compiler says meanwhile the warnings are printed, a line each."
 where it is."
   (handler-bind ((error (lambda (condition)
                           (unless (self-explaining-p condition)
-                            (loading-problem condition (uiop:native-namestring file) line)))))
+                            (loading-problem condition (native-name file) line)))))
     ;; A plan file is code: this is its loader.
     (let ((*load-pathname* file) (*load-truename* (truename file)))
       (eval form))))
@@ -203,5 +207,5 @@ that occurs while a form is evaluated."
                       (evaluate-form form file line))
                     file package)
          (funcall note-line nil)))
-     (uiop:native-namestring file))
+     (native-name file))
     (truename file)))

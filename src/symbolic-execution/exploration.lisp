@@ -122,13 +122,19 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
   "Release the Z3 context of EXPLORATION; its traces stay."
   (z3:close-context (exploration-context exploration)))
 
-(defun call-plan (plan function arguments)
+(defun call-plan (plan function arguments doom)
   "Call FUNCTION with ARGUMENTS for the plan named PLAN.  An error that the plan does not handle is
-signaled as PLAN-BROKE, on top of the stack where it happened."
+signaled as PLAN-BROKE, on top of the stack where it happened, after the function DOOM was called
+with that condition."
   (handler-bind ((error (lambda (condition)
-                          (unless (typep condition '(or symbolic-execution-error z3:z3-error
-                                                     z3:solver-unknown plan:plan-error))
-                            (error 'plan-broke :plan plan :error condition)))))
+                          (let ((final (if (typep condition '(or symbolic-execution-error z3:z3-error
+                                                              z3:solver-unknown plan:plan-error))
+                                           condition
+                                           (make-condition 'plan-broke :plan plan
+                                                                       :error condition))))
+                            (funcall doom final)
+                            (unless (eq final condition)
+                              (error final))))))
     (apply function arguments)))
 
 (defun run-plan-on (path function arguments)
@@ -142,11 +148,17 @@ NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of the pr
     (unwind-protect
          (catch path
            (plan:with-executive (path)
-             (handler-case (progn (call-plan (path-plan path) function arguments)
-                                  (setf (path-ending path) :finished))
+             (handler-case (progn (call-plan (path-plan path) function arguments
+                                             (lambda (condition) (doom path condition)))
+                                  (unless (path-fatal path)
+                                    (setf (path-ending path) :finished)))
                (plan:plan-failure (failure)
-                 (setf (path-ending path) (type-of failure))))))
+                 (unless (path-fatal path)
+                   (setf (path-ending path) (type-of failure)))))))
       (undo-writes path)))
+  ;; A cleanup form may have replaced the unwinding by a way out of its own.
+  (when (path-fatal path)
+    (error (path-fatal path)))
   (when (path-prefix path)
     (error 'nondeterministic-plan
            :plan (path-plan path) :found "its end"

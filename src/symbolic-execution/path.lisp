@@ -16,7 +16,7 @@
   "A symbolic run.  Lists are in reverse order but for PREFIX, what is still to be repeated.
 MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries.
 SYMBOLIC-P is true if the plan has symbolic arguments; HANDLERS are the condition handlers outside
-of the plan."
+of the plan.  ENDING says why the run is over, :ERROR if by the condition FATAL."
   (plan nil :read-only t)
   (domain nil :type action-theory :read-only t)
   (solver nil :read-only t)
@@ -30,30 +30,34 @@ of the plan."
   (jumps-left 0 :type fixnum)
   (symbolic-p nil :type boolean :read-only t)
   (handlers nil)
-  (ending nil))
+  (ending nil)
+  (fatal nil))
 
 (defvar *path* nil
   "The path of the symbolic run in progress.")
 
 (defun abandon (path ending)
-  "Leave the run of PATH; ENDING, a keyword, says why.  If the run is being left already, which the
-plan's cleanup forms may not notice, that goes on."
-  (unless (path-ending path)
-    (setf (path-ending path) ending))
+  "Leave the run of PATH; ENDING, a keyword, says why."
+  (setf (path-ending path) ending)
   (throw path nil))
+
+(defun doom (path condition)
+  "Note that the run of PATH is over because of CONDITION, an error, which is going to unwind it.
+What cleanup forms of the plan do meanwhile is without effect, and cannot make it forgotten."
+  (setf (path-ending path) :error
+        (path-fatal path) condition))
 
 (defmacro outside-the-plan ((path) &body body)
   "Evaluate BODY, which is no business of the plan: its errors are for handlers from outside, and
-if they unwind the run counts as ended, so that no cleanup form of the plan runs."
+doom the run unless they return."
   (let ((run (gensym "PATH")))
     `(let ((,run ,path))
        (plan:with-handlers ((path-handlers ,run))
-         (handler-bind ((error (lambda (condition)
-                                 (declare (ignore condition))
-                                 (setf (path-ending ,run) :error))))
+         (handler-bind ((error (lambda (condition) (doom ,run condition))))
            (multiple-value-prog1 (progn ,@body)
-             (when (eq (path-ending ,run) :error)
-               (setf (path-ending ,run) nil))))))))
+             (when (path-fatal ,run)
+               (setf (path-ending ,run) nil
+                     (path-fatal ,run) nil))))))))
 
 (defun count-jump (path)
   "Count a jump in a loop of the plan; abandon PATH after too many."
@@ -152,21 +156,29 @@ propositions is true in any case.  Abandons PATH if none is possible."
     (sb-mop:set-funcallable-instance-function instance function)
     instance))
 
+(defun holds-symbolic-p (value)
+  "Return true if VALUE is a symbolic boolean or a list structure with one in it.  Only so many
+conses are looked at: the list of an &rest parameter is short, and others hold none."
+  (let ((budget 10000))
+    (labels ((look (value)
+               (loop
+                 (cond ((symbolic-boolean-p value) (return t))
+                       ((or (atom value) (minusp (decf budget))) (return nil))
+                       ((look (car value)) (return t))
+                       (t (setf value (cdr value)))))))
+      (look value))))
+
 (defun decided (value description)
   "Return VALUE with every symbolic boolean in it decided, for code that cannot handle one: in
 conses, which the list of an &rest parameter may be, and in what an interpreted function returns."
-  (typecase value
-    (symbolic-boolean (truth value description))
-    (cons (let ((head (decided (car value) description))
-                (tail (decided (cdr value) description)))
-            (if (and (eq head (car value)) (eq tail (cdr value)))
-                value
-                (cons head tail))))
-    (interpreted-function
-     (lambda (&rest arguments)
-       (let ((values (multiple-value-list (apply value arguments))))
-         (values-list (cons (truth (first values) description) (rest values))))))
-    (t value)))
+  (cond ((symbolic-boolean-p value) (truth value description))
+        ((typep value 'interpreted-function)
+         (lambda (&rest arguments)
+           (let ((values (multiple-value-list (apply value arguments))))
+             (values-list (cons (truth (first values) description) (rest values))))))
+        ((and (consp value) (holds-symbolic-p value))
+         (cons (decided (car value) description) (decided (cdr value) description)))
+        (t value)))
 
 ;;; Side effects on global variables are undone between runs.  The journal is a list of
 ;;; (symbol . restoring function).  A write to a variable that the plan has bound itself is

@@ -55,11 +55,10 @@ must be true for it."
       outcome)))
 
 (defmethod plan:perform-with ((path path) designator position)
-  (when (path-ending path)
-    (abandon path (path-ending path)))
-  (when (>= (length (path-steps path)) (path-max-steps path))
-    (abandon path :too-many-steps))
-  (let ((outcome (outside-the-plan (path) (take-step path designator position))))
-    (if (eq (outcome-name outcome) :success)
-        (outcome-value outcome)
-        (plan:fail (outcome-name outcome)))))
+  (cond ((path-fatal path) nil)         ; an error unwinds: let it go on
+        ((path-ending path) (throw path nil))
+        ((>= (length (path-steps path)) (path-max-steps path)) (abandon path :too-many-steps))
+        (t (let ((outcome (outside-the-plan (path) (take-step path designator position))))
+             (if (eq (outcome-name outcome) :success)
+                 (outcome-value outcome)
+                 (plan:fail (outcome-name outcome)))))))

@@ -93,6 +93,12 @@
     (discrepancy::write-file-whole "/no/such/folder/x.json" "text"))
   (signals-with (df:replay-error "folder")
     (discrepancy::write-file-whole (namestring (uiop:temporary-directory)) "text"))
+  (let ((odd (format nil "~adf-[~36r].json" (namestring (uiop:temporary-directory))
+                     (random (expt 36 8)))))
+    (unwind-protect
+         (progn (stored-discrepancy odd)
+                (is (eq :same-bits (df:replay-status (df:replay odd))) "a name with brackets"))
+      (uiop:delete-file-if-exists (uiop:parse-native-namestring odd))))
   (uiop:with-temporary-file (:pathname path)
     (let ((plain (format nil "~a-plain" (namestring path))))
       (unwind-protect

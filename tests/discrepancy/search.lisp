@@ -154,6 +154,14 @@
     (find-in-example 0.8 :rule :magic))
   (signals-with (df:invalid-argument "seed" "-1") (find-in-example 0.8 :seed -1))
   (signals-with (df:invalid-argument "budget" "0") (find-in-example 0.8 :budget 0))
+  (signals-with (df:invalid-argument "max-paths") (find-in-example 0.8 :max-paths 'a))
+  (signals-with (df:invalid-argument "constraint") (find-in-example 0.8 :constraint 5))
+  (signals-with (df:invalid-argument "plan" "move")
+    (df:find-discrepancies "move-the-box" :domain :two-regions))
+  (signals df:impossible-parameter
+    (df:find-discrepancies 'discrepancy-finder-user::move-the-box :domain :two-regions
+                                                                  :parameters '((reach 0.5))))
+  (is (eq :certified (df:result-status (find-in-example 0.8 :rule 'paper))))
   (signals-with (df:invalid-argument "execution") (find-in-example 0.8 :execution :quickly))
   (signals-with (df:state-constraint-not-found "nowhere")
     (find-in-example 0.8 :constraint 'nowhere))
@@ -173,9 +181,12 @@
     (is (= 4 (length (df:run-steps run))))
     (is (equal '((:robot-in :r1) (:box-in :r1))
                (discrepancy:observed-fluents (df:run-final-state run))))
-    (signals df:invalid-argument
+    (dolist (state '(((:box :w 1.3)) ((:box . 3)) (:box :x 3) 5))
+      (signals df:invalid-argument
+        (df:run-plan 'discrepancy-finder-user::move-the-box :domain :two-regions :state state)))
+    (signals df:unknown-body
       (df:run-plan 'discrepancy-finder-user::move-the-box :domain :two-regions
-                                                          :state '((:box :w 1.3))))))
+                                                          :state '((:bench :x 1.3))))))
 
 (test one-of-several-fitting-outcomes-is-enough
   "Two failure clauses of the same class, of which the second one applies: no discrepancy."
@@ -209,6 +220,10 @@
   (loop (drive-to (make-pose 0.5 0 0))))
 (def-top-level-cram-function careless-plan ()
   (handler-case (perform (a motion (type dancing))) (error () nil)))
+(def-top-level-cram-function broken-plan ()
+  (unwind-protect (error \"boom\")
+    (drive-to (make-pose 0.6 0 0))
+    (return-from broken-plan :quietly)))
 (def-top-level-cram-function dividing-plan (x)
   (handler-case (/ 1d0 x) (division-by-zero () (drive-to (make-pose 1.5 0 0)))))
 ")
@@ -225,6 +240,7 @@
       (let ((discrepancy::*step-limit* 5))
         (is (eq :too-many-steps (discrepancy:run-ending (run-odd "ENDLESS-PLAN")))))
       (signals symbolic:action-problem (run-odd "CARELESS-PLAN"))
+      (signals-with (symbolic:plan-broke "boom") (run-odd "BROKEN-PLAN"))
       (is (= 1 (length (df:run-steps (run-odd "DIVIDING-PLAN" 0d0))))
           "the plan has the float traps of Lisp")
       (signals df:invalid-argument (run-odd "DIVIDING-PLAN")))))

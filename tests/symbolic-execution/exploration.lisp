@@ -337,3 +337,33 @@
   (with-failure-handling ((plan-failure () (retry)))
     (fail)))" :constraint 'anything :max-jumps 1000)))
     (is (not (symbolic:exploration-complete-p exploration)))))
+
+(test an-error-is-not-forgotten-over-a-cleanup-form
+  "Neither an interpreted nor a compiled cleanup form that performs something hides it."
+  (signals-with (symbolic:action-problem "dancing")
+    (explore-text "
+(defun tidy (?lamp)
+  (unwind-protect (perform (a motion (type dancing)))
+    (perform (a motion (type smashing) (lamp ?lamp)))))
+(def-top-level-cram-function lamp-plan () (tidy :a))" :constraint 'anything))
+  (signals-with (symbolic:plan-broke "boom")
+    (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (unwind-protect (error \"boom\")
+    (perform (a motion (type smashing) (lamp a)))
+    (perform (a motion (type smashing) (lamp a)))))" :constraint 'anything))
+  (signals-with (symbolic:plan-broke "boom")
+    (explore-text "
+(defun leave-quietly ()
+  (block quiet (unwind-protect (error \"boom\") (return-from quiet))))
+(def-top-level-cram-function lamp-plan () (leave-quietly))" :constraint 'anything)))
+
+(test long-and-circular-lists-are-no-matter
+  (let ((exploration (explore-text "
+(def-top-level-cram-function lamp-plan (?flag)
+  (let ((long (make-list 300000)) (round (list 1 2)))
+    (setf (cddr round) round)
+    (when (and (= 300000 (length long)) (eql 1 (third round)) ?flag)
+      (perform (a motion (type smashing) (lamp a))))))"
+                                   :constraint 'anything :arguments '((?flag boolean)))))
+    (is (= 1 (length (symbolic:exploration-traces exploration))))))
