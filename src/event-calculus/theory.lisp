@@ -228,4 +228,5 @@ THEORY-ERROR, which name file and line."
                                      was expected"
                                 (formula-text (if operator (first form) form)))))))))
     (or theory
-        (error 'source:source-error :file (source:native-name file) :reason "no define-theory in it"))))
+        (error 'source:source-error :file (source:native-name file)
+                                    :reason "no define-theory in it"))))

@@ -15,8 +15,8 @@
   "Return an EXPLORATION that has found every trace of PLAN (a symbol) in DOMAIN (a domain or its
 name) on which the state constraint named CONSTRAINT (NIL: the theory's only one) comes true, and
 the list of these traces; DESCRIBE shows them in full.  ARGUMENTS is a list of (parameter boolean),
-the plan's symbolic arguments; MAX-PATHS, MAX-STEPS (performs on a path) and MAX-JUMPS (iterations of
-loops and retries on a path) bound the search.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
+the plan's symbolic arguments; MAX-PATHS, MAX-STEPS (performs on a path) and MAX-JUMPS (iterations
+of loops and retries on a path) bound the search.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
 STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM, NONDETERMINISTIC-PLAN, PLAN-BROKE, ACTION-PROBLEM,
 SOLVER-UNKNOWN."
   (declare (ignore constraint arguments max-paths max-steps max-jumps))

@@ -8,7 +8,8 @@
   (:export
    ;; scenes
    #:load-scene #:scene #:scene-name #:scene-file #:scene-files #:scene-parameters #:scene-parameter
-   #:scene-with-parameters #:normalized-parameters #:scene-body-pose #:check-movable #:scene-item-names
+   #:scene-with-parameters #:normalized-parameters #:scene-body-pose #:check-movable
+   #:scene-item-names
    #:scene-robot-name
    ;; URDF
    #:read-urdf #:urdf-model #:urdf-model-name #:urdf-link #:urdf-joint

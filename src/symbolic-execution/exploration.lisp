@@ -127,8 +127,9 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
 signaled as PLAN-BROKE, on top of the stack where it happened, after the function DOOM was called
 with that condition."
   (handler-bind ((error (lambda (condition)
-                          (let ((final (if (typep condition '(or symbolic-execution-error z3:z3-error
-                                                              z3:solver-unknown plan:plan-error))
+                          (let ((final (if (typep condition
+                                                  '(or symbolic-execution-error z3:z3-error
+                                                    z3:solver-unknown plan:plan-error))
                                            condition
                                            (make-condition 'plan-broke :plan plan
                                                                        :error condition))))
