@@ -83,6 +83,34 @@
     (is (nearly 0.4 (geometry:pose-y (box-pose projection)) 5d-3))
     (is (nearly 0.46 (geometry:pose-z (box-pose projection)) 1d-3) "it rests on the bench")))
 
+(test the-top-of-an-item-is-found-however-it-lies
+  (flet ((extent (shape &rest angles)
+           (projection::upper-extent shape (apply #'geometry:make-pose 1 2 3 angles))))
+    (let ((box '(:box 0.06d0 0.08d0 0.12d0)) (can '(:cylinder 0.05d0 0.2d0)) (half (/ pi 2)))
+      (is (nearly 0.06 (extent box) 1d-7))
+      (is (nearly 0.06 (extent box :yaw 1) 1d-7))
+      (is (nearly 0.04 (extent box :roll half) 1d-7))
+      (is (nearly 0.03 (extent box :pitch half) 1d-7))
+      (is (nearly (/ (+ 0.06 0.12) 2 (sqrt 2d0)) (extent box :pitch (/ pi 4)) 1d-7))
+      (is (nearly 0.1 (extent can) 1d-7))
+      (is (nearly 0.05 (extent can :roll half) 1d-7))
+      (let ((pair (list :compound (list (geometry:make-pose 0 0 -0.2) box)
+                        (list (geometry:make-pose 0.3 0 0) '(:sphere 0.01d0)))))
+        (is (nearly 0.01 (extent pair) 1d-7))
+        (is (nearly 0.31 (extent pair :pitch (- half)) 1d-7))))))
+
+(test a-box-that-lies-is-grasped-at-its-top
+  (projection:with-projection (projection (two-regions-scene)
+                                          :poses (list :box (geometry:make-pose
+                                                             1.5 0.4 0.43 :pitch (/ pi 2))))
+    (projection:settle projection)
+    (perform-in projection (going-to 1.5))
+    (perform-in projection (picking-up-the-box))
+    (perform-in projection (going-to 0.5))
+    (perform-in projection (placing-at 0.5 0.4 0.43))
+    (is (nearly 0.43 (geometry:pose-z (box-pose projection)) 1d-3))
+    (is (nearly 0.5 (geometry:pose-x (box-pose projection)) 5d-3))))
+
 (test a-box-placed-in-the-air-falls
   "Nothing holds a released box but what is below it."
   (projection:with-projection (projection (two-regions-scene))

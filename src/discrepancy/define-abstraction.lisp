@@ -76,12 +76,6 @@
       (abstraction-problem name clause "a coordinate stands twice"))
     coordinates))
 
-(defun check-movable (name clause scene body)
-  "Signal ABSTRACTION-ERROR unless BODY is the robot or an item of SCENE."
-  (unless (member (ec:name-keyword body)
-                  (cons (projection:scene-robot-name scene) (projection:scene-item-names scene)))
-    (abstraction-problem name clause "the scene has no robot and no item ~a" (ec:name-text body))))
-
 (defun placement-declaration (name clause pattern theory)
   "Return the declaration of the fluent in PATTERN, which must be (fluent ?sort)."
   (let ((declaration (and (consp pattern) (symbolp (first pattern))
@@ -104,7 +98,10 @@
     (let ((declaration (placement-declaration name clause pattern theory)))
       (unless (and (symbolp body) body (consp coordinates))
         (abstraction-problem name clause ":body and :coordinates are needed"))
-      (check-movable name clause scene body)
+      (handler-case (projection:check-movable scene body)
+        (projection:unknown-body ()
+          (abstraction-problem name clause "the scene has no robot and no item ~a"
+                               (ec:name-text body))))
       (let ((candidates (loop for element in (ec:sort-elements theory (second declaration))
                               collect (or (find element regions :key #'region-name)
                                           (abstraction-problem

@@ -148,16 +148,20 @@ satisfied."
          (sample (draw-sample (trace-search-parameters trace-search) (search-seed search)
                               (trace-search-content trace-search) index))
          (run (simulate search sample trace)))
-    (if (not (eq (run-validity run) :valid))
-        (note-rejection trace-search run)
-        (let ((judgement (judge-run (search-domain search) run trace
-                                    :context (search-context search)
-                                    :compare (search-compare search))))
-          (setf (trace-search-in-a-row trace-search) 0)
-          (ecase (judgement-verdict judgement)
-            (:discrepancy (note-discrepancy trace-search sample run judgement))
-            (:left-trace (incf (trace-search-left trace-search)) nil)
-            (:consistent (note-agreement trace-search sample run)))))))
+    (cond
+      ((not (eq (run-validity run) :valid)) (note-rejection trace-search run))
+      ((eq (run-ending run) :too-many-steps)
+       (conclude trace-search :undecided
+                 (format nil "the run of sample ~d did not end within ~d steps" index *step-limit*)))
+      (t
+       (let ((judgement (judge-run (search-domain search) run trace
+                                   :context (search-context search)
+                                   :compare (search-compare search))))
+         (setf (trace-search-in-a-row trace-search) 0)
+         (ecase (judgement-verdict judgement)
+           (:discrepancy (note-discrepancy trace-search sample run judgement))
+           (:left-trace (incf (trace-search-left trace-search)) nil)
+           (:consistent (note-agreement trace-search sample run))))))))
 
 (defun search-trace (search trace)
   "Sample TRACE until the confidence rule is met, a discrepancy ends it, or the budget is used up.

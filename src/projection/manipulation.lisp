@@ -34,17 +34,21 @@
                         (scene-parameter scene :joint-speed)
                         (scene-parameter scene :joint-acceleration))))
 
-(defun item-height (projection name)
-  "Return the height (m) of the item NAME's bounding box in its own frame."
-  (labels ((height (shape)
-             (ecase (first shape)
-               (:box (fourth shape))
-               (:cylinder (third shape))
-               (:sphere (* 2 (second shape)))
-               (:compound (loop for (pose part) in (rest shape)
-                                maximize (+ (abs (* 2 (pose-z pose))) (height part)))))))
-    (let ((part (scene-part (projection-scene projection) name)))
-      (height (urdf-link-shape (first (urdf-model-links (scene-part-model part))))))))
+(defun upper-extent (shape pose)
+  "Return how far (m) the top of SHAPE, at POSE, is above the position of POSE, however it lies."
+  (flet ((rise (x y z)                  ; the height that a vector of the shape's frame gains
+           (- (pose-z (compose pose (make-pose x y z))) (pose-z pose))))
+    (ecase (first shape)
+      (:box (destructuring-bind (x y z) (rest shape)
+              (/ (+ (abs (rise x 0 0)) (abs (rise 0 y 0)) (abs (rise 0 0 z))) 2)))
+      (:sphere (second shape))
+      (:cylinder (destructuring-bind (radius length) (rest shape)
+                   (+ (/ (abs (rise 0 0 length)) 2)
+                      (* radius (sqrt (max 0d0 (- 1 (expt (rise 0 0 1) 2))))))))
+      (:compound (loop for (offset part) in (rest shape)
+                       for part-pose = (compose pose offset)
+                       maximize (+ (- (pose-z part-pose) (pose-z pose))
+                                   (upper-extent part part-pose)))))))
 
 (defun check-reach (projection pose what)
   "Signal MANIPULATION-POSE-UNREACHABLE unless the position of POSE is within reach."
@@ -109,7 +113,7 @@ there, and take the arm back."
       (plan:fail 'plan:gripper-goal-not-reached
                  :description (format nil "the gripper holds the ~(~a~)" (held-item projection))))
     (check-reach projection pose what)
-    (visit projection pose (+ (/ (item-height projection name) 2) *grasp-gap*) what
+    (visit projection pose (+ (upper-extent (bullet:body-shape body) pose) *grasp-gap*) what
            (lambda ()
              (setf (projection-grasp projection)
                    (cons name (bullet:attach (gripper-body (projection-robot projection))
@@ -126,7 +130,11 @@ there, and take the arm back."
       (plan:fail 'plan:gripper-closed-completely :description "the gripper holds nothing to place"))
     (check-reach projection target "the target")
     (visit projection target
-           (+ (/ (item-height projection name) 2) *grasp-gap* *release-gap*) "the target"
+           ;; As high above the target as the gripper's tip is above the item that it holds.
+           (+ (- (pose-z (gripper-pose (projection-robot projection)))
+                 (pose-z (observed-pose projection name)))
+              *release-gap*)
+           "the target"
            (lambda ()
              (bullet:detach (cdr (projection-grasp projection)))
              (setf (projection-grasp projection) nil)

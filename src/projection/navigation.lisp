@@ -13,14 +13,6 @@
   (update-links (projection-robot projection))
   (bullet:step-world (projection-world projection)))
 
-(defun fixture-contact (projection)
-  "Return the names of a link and a fixture that touch in PROJECTION, or NIL."
-  (dolist (fixture (projection-fixtures projection))
-    (loop for link in (link-bodies (projection-robot projection))
-          when (plusp (bullet:penetration link fixture))
-            do (return-from fixture-contact
-                 (list (bullet:body-name link) (bullet:body-name fixture))))))
-
 (defun drive-base (projection goal)
   "Drive the robot of PROJECTION straight to the pose GOAL, of which x, y and yaw count.  Signals
 NAVIGATION-GOAL-NOT-REACHED where a link touches a fixture; the base stops there."
@@ -40,7 +32,7 @@ NAVIGATION-GOAL-NOT-REACHED where a link touches a fixture; the base stops there
                       (step-projection projection)
                       (incf step)
                       (and (or (zerop (mod step +contact-interval+)) (= fraction 1))
-                           (fixture-contact projection)))
+                           (nth-value 1 (fixture-contact projection))))
                     ;; A turn on the spot counts as a drive of as many metres as radians.
                     (max (planar-distance start goal) (abs turn))
                     (scene-parameter scene :base-speed)

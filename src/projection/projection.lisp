@@ -93,19 +93,27 @@ UNKNOWN-BODY."
   "Return a 64-bit number that depends on every bit of the state of PROJECTION's bodies."
   (bullet:state-hash (projection-world projection)))
 
+(defun fixture-contact (projection)
+  "Return the depth (m) by which the robot's links penetrate the fixtures of PROJECTION at the worst
+place, 0 if nowhere, and the names of link and fixture."
+  (let ((worst 0d0) (names '()))
+    (when (projection-robot projection)
+      (dolist (fixture (projection-fixtures projection))
+        (dolist (link (link-bodies (projection-robot projection)))
+          (let ((depth (bullet:penetration link fixture)))
+            (when (> depth worst)
+              (setf worst depth
+                    names (list (bullet:body-name link) (bullet:body-name fixture))))))))
+    (values worst names)))
+
 (defun interpenetration (projection)
   "Return the depth (m) by which bodies of PROJECTION penetrate each other at the worst place, and
 the names of the two bodies.  The robot's links and the fixtures count, too."
   (multiple-value-bind (depth one other) (bullet:deepest-penetration (projection-world projection))
-    (let ((worst depth)
-          (names (and one (list (bullet:body-name one) (bullet:body-name other)))))
-      (dolist (fixture (projection-fixtures projection) (values worst names))
-        (when (projection-robot projection)
-          (loop for link in (link-bodies (projection-robot projection))
-                for depth = (bullet:penetration link fixture)
-                when (> depth worst)
-                  do (setf worst depth
-                           names (list (bullet:body-name link) (bullet:body-name fixture)))))))))
+    (multiple-value-bind (fixture-depth names) (fixture-contact projection)
+      (if (> fixture-depth depth)
+          (values fixture-depth names)
+          (values depth (and one (list (bullet:body-name one) (bullet:body-name other))))))))
 
 ;;; Time
 

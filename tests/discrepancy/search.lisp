@@ -175,6 +175,14 @@
     (is (eq :undecided (df:result-status result)))
     (is (search "budget of 2" (df:result-reason result)))))
 
+(test a-run-that-does-not-end-certifies-nothing
+  (let ((discrepancy::*step-limit* 3))
+    (let ((result (find-in-example 0.8 :execution :plan)))
+      (is (eq :undecided (df:result-status result)))
+      (is (search "did not end within 3 steps" (df:result-reason result))))
+    (is (eq :undecided (df:result-status (find-in-example 0.8 :execution :trace)))))
+  (is (eq :certified (df:result-status (find-in-example 0.8 :execution :plan)))))
+
 (test running-a-plan-from-a-state
   (let ((run (df:run-plan 'discrepancy-finder-user::move-the-box
                           :domain :two-regions :state '((:box :x 1.3 :y 0.41)))))
