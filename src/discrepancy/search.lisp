@@ -152,7 +152,8 @@ satisfied."
       ((not (eq (run-validity run) :valid)) (note-rejection trace-search run))
       ((eq (run-ending run) :too-many-steps)
        (conclude trace-search :undecided
-                 (format nil "the run of sample ~d did not end within ~d steps" index *step-limit*)))
+                 (format nil "the run of sample ~d did not end within ~d steps" index
+                         *step-limit*)))
       (t
        (let ((judgement (judge-run (search-domain search) run trace
                                    :context (search-context search)
