@@ -119,13 +119,58 @@ The environment variable CXX names another compiler than g++."))
                (:file "formula") (:file "state-constraints") (:file "grounding")
                (:file "progression")))
 
+(asdf:defsystem "discrepancy-finder/prolog"
+  :description "A small Prolog with lazy solutions, in which designators are grounded."
+  :pathname "src/prolog/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "lazy-lists")
+               (:file "lazy-operations") (:file "bindings") (:file "terms") (:file "database")
+               (:file "fact-groups") (:file "machine") (:file "handlers") (:file "control")
+               (:file "lisp-predicates") (:file "list-predicates")))
+
+(asdf:defsystem "discrepancy-finder/designators"
+  :description "Symbolic descriptions of actions, motions, objects, locations, humans."
+  :depends-on ("discrepancy-finder/prolog" "discrepancy-finder/geometry"
+               "discrepancy-finder/source" "alexandria")
+  :pathname "src/designators/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "designators") (:file "text")
+               (:file "chains") (:file "descriptions") (:file "keys") (:file "known-keys")
+               (:file "forms") (:file "reference") (:file "locations")
+               (:file "location-solutions") (:file "poses") (:file "property-types")
+               (:file "predicates")))
+
+(asdf:defsystem "discrepancy-finder/transforms"
+  :description "Vectors, quaternions, poses and transforms under the names of cl-transforms."
+  :depends-on ("discrepancy-finder/geometry")
+  :pathname "src/transforms/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "arguments") (:file "vectors")
+               (:file "quaternions") (:file "rotations") (:file "poses") (:file "stamped")
+               (:file "frames") (:file "pose-helpers")))
+
+(asdf:defsystem "discrepancy-finder/roslisp"
+  :description "The logging and the start-up functions of roslisp, without ROS."
+  :pathname "src/roslisp/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "logging") (:file "node")))
+
 (asdf:defsystem "discrepancy-finder/plan-language"
   :description "CPL, the plan language of CRAM."
-  :depends-on ("discrepancy-finder/geometry" "discrepancy-finder/source" "alexandria")
+  :depends-on ("discrepancy-finder/geometry" "discrepancy-finder/source"
+               "discrepancy-finder/prolog" "discrepancy-finder/designators" "alexandria"
+               (:require "sb-cltl2"))
   :pathname "src/plan-language/"
   :serial t
-  :components ((:file "package") (:file "conditions") (:file "failures") (:file "designators")
-               (:file "executive") (:file "plans")))
+  :components ((:file "package") (:file "conditions") (:file "dynamic-bindings")
+               (:file "handlers") (:file "tasks") (:file "task-tree") (:file "workers")
+               (:file "clock") (:file "scheduler") (:file "failures") (:file "running")
+               (:file "requests")
+               (:file "top-level") (:file "fluents") (:file "fluent-operators")
+               (:file "task-control") (:file "failure-handling") (:file "failure-classes")
+               (:file "parallel") (:file "tags") (:file "policies") (:file "plans")
+               (:file "goals") (:file "hooks") (:file "occasions") (:file "process-modules")
+               (:file "executive") (:file "load-plan")))
 
 (asdf:defsystem "discrepancy-finder/symbolic-execution"
   :description "Plans on all inputs at once, along the paths that a theory allows."

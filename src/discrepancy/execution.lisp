@@ -92,7 +92,8 @@ the class of an unhandled failure."
 
 (defun leave-run (monitor ending)
   "Leave the run of MONITOR; ENDING, a keyword, says why."
-  (throw monitor (setf (monitor-ending monitor) ending)))
+  (setf (monitor-ending monitor) ending)
+  (plan:leave-plan monitor ending))
 
 (defun fitting-outcomes (outcomes failure)
   "Return those of OUTCOMES that FAILURE, a condition or NIL for success, can be."
@@ -117,33 +118,54 @@ the class of an unhandled failure."
       (cond ((not (same-step-p step expected)) (leave-run monitor :left-trace))
             ((null (monitor-expected monitor)) (leave-run monitor :trace-done))))))
 
-(defun perform-recorded (monitor designator position)
-  "Let the projection of MONITOR perform DESIGNATOR and record the step.  Return the failure or NIL,
-and the result."
-  (let ((outcomes (symbolic:action-outcomes (monitor-domain monitor) designator))
-        (failure nil)
-        (result nil))
-    (handler-case (setf result (plan:perform-with (monitor-projection monitor) designator position))
-      (plan:plan-failure (condition) (setf failure condition)))
+(defun record-step (monitor designator position failure)
+  "Record that DESIGNATOR was performed and ended in FAILURE, a condition, or NIL."
+  (let ((outcomes (symbolic:action-outcomes (monitor-domain monitor) designator)))
     (note-step monitor
                (make-run-step :designator designator :position position
                               :outcome (if failure (type-of failure) :success)
                               :candidates (fitting-outcomes outcomes failure)
                               :failure (and failure (source:condition-sentence failure))
                               :state (discrete-state (monitor-domain monitor)
-                                                     (monitor-projection monitor))))
-    (values failure result)))
+                                                     (monitor-projection monitor))))))
+
+(defun call-watched (monitor function)
+  "Call FUNCTION, which is no business of the plan, on the thread of the top-level."
+  (plan:call-on-main
+   (lambda ()
+     (plan:with-handlers ((monitor-handlers monitor))
+       (handler-bind ((error (lambda (condition)
+                               (setf (monitor-fatal monitor) condition))))
+         (funcall function))))))
+
+(defun perform-concretely (monitor designator position)
+  "Let the projection of MONITOR perform DESIGNATOR; what it has no process module for, but the plan
+has a plan for, is performed by that plan, whose own motions are no steps.  Return the failure or
+NIL, and the result."
+  (let* ((projection (monitor-projection monitor))
+         (native (or (projection:executes-p projection designator)
+                     (not (plan:plan-known-p designator)))))
+    (handler-case
+        (values nil
+                (if native
+                    (call-watched monitor
+                                  (lambda ()
+                                    (plan:perform-with projection designator position)))
+                    (plan:with-executive (projection)
+                      (plan:perform-by-reference designator))))
+      (plan:plan-failure (failure) failure))))
+
+(defmethod plan:executive-clock ((monitor monitor))
+  (plan:executive-clock (monitor-projection monitor)))
 
 (defmethod plan:perform-with ((monitor monitor) designator position)
   (cond ((monitor-fatal monitor) nil)   ; an error unwinds: let it go on
-        ((monitor-ending monitor) (throw monitor (monitor-ending monitor)))
+        ((monitor-ending monitor) (plan:leave-plan monitor (monitor-ending monitor)))
+        ((symbolic:entered-p (monitor-domain monitor) designator) (call-next-method))
         ((>= (length (monitor-steps monitor)) *step-limit*) (leave-run monitor :too-many-steps))
         (t
-         (multiple-value-bind (failure result)
-             (plan:with-handlers ((monitor-handlers monitor))
-               (handler-bind ((error (lambda (condition)
-                                       (setf (monitor-fatal monitor) condition))))
-                 (perform-recorded monitor designator position)))
+         (multiple-value-bind (failure result) (perform-concretely monitor designator position)
+           (call-watched monitor (lambda () (record-step monitor designator position failure)))
            (if failure
                (plan:fail failure)
                result)))))

@@ -16,31 +16,90 @@
                      (plan-not-found-name condition))))
   (:documentation "Signaled when a plan is asked for that was never defined."))
 
+(defun short-form (form)
+  "Return FORM as a text of one line."
+  (let ((*print-pretty* nil) (*print-length* 8) (*print-level* 4))
+    (prin1-to-string form)))
+
 (define-condition malformed-plan-form (plan-error)
   ((form :initarg :form :reader malformed-plan-form-form
          :documentation "The form that is not well-formed.")
+   (plan :initarg :plan :initform nil :reader malformed-plan-form-plan
+         :documentation "The name of the plan that it stands in, or NIL.")
    (expected :initarg :expected :reader malformed-plan-form-expected
              :documentation "What was expected, as a string."))
   (:report (lambda (condition stream)
-             (let ((*print-pretty* nil) (*print-length* 8) (*print-level* 4))
-               (format stream "In ~s, ~a was expected."
-                       (malformed-plan-form-form condition)
-                       (malformed-plan-form-expected condition)))))
+             (let ((form (malformed-plan-form-form condition)))
+               (format stream "In ~a~@[ of the plan ~(~a~)~]~@[ (~a)~], ~a was expected."
+                       (short-form form) (malformed-plan-form-plan condition)
+                       (source:form-position form) (malformed-plan-form-expected condition)))))
   (:documentation "Signaled when a form of the plan language is expanded that is not well-formed."))
+
+(define-condition misplaced-retry (style-warning)
+  ((form :initarg :form :reader misplaced-retry-form :documentation "The call.")
+   (plan :initarg :plan :initform nil :reader misplaced-retry-plan
+         :documentation "The name of the plan that it stands in, or NIL."))
+  (:report (lambda (condition stream)
+             (format stream "~a~@[ of the plan ~(~a~)~] is outside of any handler of ~
+                             with-failure-handling."
+                     (short-form (misplaced-retry-form condition))
+                     (misplaced-retry-plan condition))))
+  (:documentation "Signaled when a call of RETRY is compiled that no handler is around."))
 
 (define-condition nested-top-level (plan-error)
   ()
   (:report "top-level calls cannot be nested.")
   (:documentation "Signaled when a top-level is entered while another one runs."))
 
-(define-condition no-executive (plan-error)
-  ((designator :initarg :designator :reader no-executive-designator
-               :documentation "The designator that was to be performed."))
+(define-condition not-in-top-level (plan-error type-error)
+  ((form :initarg :form :reader not-in-top-level-form
+         :documentation "What was to be evaluated."))
+  (:default-initargs :datum nil :expected-type 'task)
   (:report (lambda (condition stream)
-             (format stream "~a cannot be performed here: nothing executes plans; use run-plan or ~
-                             with-executive."
-                     (no-executive-designator condition))))
-  (:documentation "Signaled by PERFORM outside of any executive."))
+             (format stream "~a needs a task: it can be evaluated only inside of a top-level."
+                     (short-form (not-in-top-level-form condition)))))
+  (:documentation "Signaled by what is possible only inside of a top-level.  A TYPE-ERROR, as in
+CRAM, where NIL is found in the place of a task."))
+
+(define-condition deadlock (plan-error)
+  ((waiting :initarg :waiting :reader deadlock-waiting
+            :documentation "List of (task . what it waits for), both in words."))
+  (:report (lambda (condition stream)
+             (format stream "Deadlock: ~{~{~a waits for ~a~}~^, ~}."
+                     (loop for (task . what) in (deadlock-waiting condition)
+                           collect (list task what)))))
+  (:documentation "Signaled by a top-level all of whose tasks wait for something that cannot
+happen any more."))
+
+(define-condition wait-for-nil (plan-error)
+  ()
+  (:report "wait-for called with nil argument.")
+  (:documentation "Signaled by WAIT-FOR for NIL, which will never be true."))
+
+(define-condition task-not-found (plan-error)
+  ((path :initarg :path :reader task-not-found-path :documentation "The path."))
+  (:report (lambda (condition stream)
+             (format stream "There is no task with the path ~a."
+                     (short-form (task-not-found-path condition)))))
+  (:documentation "Signaled by TASK and SUB-TASK for a path that no task has."))
+
+(define-condition process-module-not-found (plan-error)
+  ((name :initarg :name :reader process-module-not-found-name :documentation "The name."))
+  (:report (lambda (condition stream)
+             (format stream "There is no process module named ~(~a~); it would be defined by ~
+                             def-process-module."
+                     (process-module-not-found-name condition))))
+  (:documentation "Signaled when a process module is to run that was never defined."))
+
+(define-condition goal-already-reached (warning)
+  ((designator :initarg :designator :reader goal-already-reached-designator
+               :documentation "The action designator.")
+   (goal :initarg :goal :reader goal-already-reached-goal :documentation "The occasion."))
+  (:report (lambda (condition stream)
+             (format stream "~a is not performed: its goal ~a holds already."
+                     (goal-already-reached-designator condition)
+                     (short-form (goal-already-reached-goal condition)))))
+  (:documentation "Signaled by PERFORM for an action whose goal holds already."))
 
 (define-condition designator-not-understood (plan-error)
   ((designator :initarg :designator :reader designator-not-understood-designator

@@ -1,27 +1,120 @@
 ;;;; The executive: who performs what a plan asks for.
 ;;;;
-;;;; PERFORM hands a designator to the executive of the plan that runs.  An executive is any object
-;;;; with a method on PERFORM-WITH: a projection world executes motions, a symbolic executive
-;;;; consults a theory.  So one plan source serves both.
+;;;; PERFORM hands a designator to the executive of the plan that runs, in a task of its own.  An
+;;;; executive is any object with a method on PERFORM-WITH: a projection world executes motions, a
+;;;; symbolic executive consults a theory.  So one plan source serves both.  What an executive does
+;;;; not know, and what is performed without one, goes CRAM's way (PERFORM-BY-REFERENCE): an action
+;;;; designator is resolved to a plan, which is called, a motion designator is given to a process
+;;;; module that runs.
 
 (in-package #:discrepancy-finder.plan-language)
-
-(defvar *executive* nil
-  "The executive of the running plan.  Plan code cannot pass it on, hence a variable.")
 
 (defgeneric perform-with (executive designator position)
   (:documentation "Let EXECUTIVE perform the action or motion DESIGNATOR and return the result.
 POSITION is the source position of the perform form, or NIL where unknown.  Signals a PLAN-FAILURE
 if that fails, DESIGNATOR-NOT-UNDERSTOOD if EXECUTIVE cannot interpret DESIGNATOR.")
-  (:method ((executive null) designator position)
-    (declare (ignore position))
-    (error 'no-executive :designator designator)))
+  (:method (executive designator position)
+    (declare (ignore executive position))
+    (perform-by-reference designator)))
+
+(defgeneric call-plan-function (executive name arguments)
+  (:documentation "Call the plan named NAME with the list ARGUMENTS, for EXECUTIVE.")
+  (:method (executive name arguments)
+    (declare (ignore executive))
+    (apply name arguments)))
+
+(define-condition designator-reference-failure (simple-plan-failure desig:designator-error)
+  ((result :initarg :result :initform nil :reader designator-reference-failure-result
+           :documentation "What the designator was resolved to, if that is of no use."))
+  (:documentation "Signaled by PERFORM for a designator that cannot be resolved."))
+
+(define-condition designator-goal-parsing-failure (simple-plan-failure desig:designator-error)
+  ()
+  (:documentation "Signaled by PERFORM for an action with a goal that is no occasion."))
+
+(defun reference-failure (designator control &rest arguments)
+  (fail 'designator-reference-failure
+        :designator designator :format-control control :format-arguments arguments))
+
+(defun try-reference-designator (designator)
+  "Return what DESIGNATOR is resolved to.  Signals DESIGNATOR-REFERENCE-FAILURE if it cannot be."
+  (handler-case (reference designator)
+    (desig:designator-error (condition)
+      (reference-failure designator "~a" condition))))
+
+(defun plan-known-p (designator)
+  "Return true if DESIGNATOR can be performed by PERFORM-BY-REFERENCE: if it is an action that is
+resolved to a call of a plan, or a motion for which a process module runs."
+  (typecase designator
+    (action-designator
+     (handler-case (let ((solution (reference designator)))
+                     (and (consp solution) (symbolp (first solution))
+                          (fboundp (first solution))))
+       (desig:designator-error () nil)))
+    (motion-designator (and (matching-process-modules designator) t))))
+
+(defun perform-action (designator)
+  "Resolve the action DESIGNATOR, by its first solution, and call the plan."
+  (let ((solution (try-reference-designator designator)))
+    (unless (and (consp solution) (symbolp (first solution)))
+      (reference-failure designator "~a is resolved to ~s, which is no call of a plan."
+                         designator solution))
+    (destructuring-bind (name . arguments) solution
+      (unless (fboundp name)
+        (fail "~a is resolved to a call of ~(~s~), which is no function." designator name))
+      (call-plan-function *executive* name arguments))))
+
+(defgeneric perform-by-reference (designator)
+  (:documentation "Perform DESIGNATOR as CRAM does: an action by its plan, a motion by a process
+module that runs.  Signals DESIGNATOR-REFERENCE-FAILURE, SIMPLE-PLAN-FAILURE and what plan or
+process module fail with.")
+  (:method ((designator t))
+    (fail "~s is no designator of an action or a motion." designator))
+  (:method ((designator action-designator))
+    (perform-action designator))
+  (:method ((designator motion-designator))
+    (perform-motion designator)))
+
+;;; Goals of actions
+
+(defun goal-occasion (designator)
+  "Return the occasion that the action DESIGNATOR has for a goal, or NIL."
+  (let ((goal (and (typep designator 'action-designator) (desig-prop-value designator :goal))))
+    (when (and goal (not (consp goal)))
+      (fail 'designator-goal-parsing-failure
+            :designator designator
+            :format-control "The goal ~s of ~a is no occasion."
+            :format-arguments (list goal designator)))
+    goal))
+
+(defun call-with-goal (designator function)
+  "Call FUNCTION, which performs DESIGNATOR.  If this has a goal that holds already, warn and return
+NIL instead; if it does not hold afterwards, fail."
+  (let ((goal (goal-occasion designator)))
+    (cond ((null goal) (funcall function))
+          ((holds goal)
+           (warn 'goal-already-reached :designator designator :goal goal)
+           nil)
+          (t
+           (multiple-value-prog1 (funcall function)
+             (unless (holds goal)
+               (fail "The goal ~s of ~a was not reached." goal designator)))))))
 
 (defun perform (designator &optional position)
-  "Perform the action or motion DESIGNATOR and return the result.  POSITION, where in the source
-this is, is filled in by the compiler for plans that were loaded with LOAD-PLAN.  Signals a
-PLAN-FAILURE if that fails, NO-EXECUTIVE outside of any executive."
-  (perform-with *executive* designator position))
+  "Perform the action or motion DESIGNATOR in a task of its own and return the result.  POSITION,
+where in the source this is, is filled in by the compiler for plans that were loaded with LOAD-PLAN.
+Signals a PLAN-FAILURE if that fails, NOT-IN-TOP-LEVEL outside of a top-level."
+  (need-task `(perform ,designator))
+  (yield)
+  (multiple-value-prog1
+      (call-in-task (lambda () (format nil "perform ~a" designator))
+                    '(goal (perform ?designator))
+                    (lambda ()
+                      (call-with-goal designator
+                                      (lambda ()
+                                        (perform-with *executive* designator position))))
+                    :parameters (lambda () (list designator)))
+    (yield)))
 
 (define-compiler-macro perform (&whole form designator &optional position)
   (let ((found (and (null position) (source:form-position form))))
@@ -29,21 +122,21 @@ PLAN-FAILURE if that fails, NO-EXECUTIVE outside of any executive."
         `(perform ,designator ,found)
         form)))
 
+;;; What the macros of the plan language expand into
+
+(defparameter *control-functions*
+  '(call-with-failure-handlers call-in-top-level call-in-task run-child ensure-top-level
+    call-par call-par-loop call-pursue call-try-all call-try-in-order
+    call-with-policy call-with-task-suspended call-with-suspension-handler
+    call-retrying-after-suspension call-uninterrupted call-with-process-modules
+    call-with-executive)
+  "Functions that the macros of the plan language expand into.  They call the functions that they
+are given and hand on what these return, whatever it is.")
+
 (defun call-with-executive (executive function)
   "Call FUNCTION without arguments; what it performs is performed by EXECUTIVE."
   (let ((*executive* executive))
     (funcall function)))
-
-(defun current-handlers ()
-  "Return the condition handlers that are in force, for WITH-HANDLERS."
-  sb-kernel:*handler-clusters*)
-
-(defmacro with-handlers ((handlers) &body body)
-  "Evaluate BODY with HANDLERS, a value of CURRENT-HANDLERS, in the place of those in force.  An
-executive runs its own machinery so, with the handlers from outside the plan: otherwise a plan's
-handler for all errors would handle what is wrong with the executive."
-  `(let ((sb-kernel:*handler-clusters* ,handlers))
-     ,@body))
 
 (defmacro with-executive ((executive) &body body)
   "Evaluate BODY; what it performs is performed by EXECUTIVE."

@@ -1,13 +1,11 @@
-;;;; Plan failures: what goes wrong in the world, and what a plan does about it.
+;;;; Plan failures: what goes wrong in the world.
 ;;;;
 ;;;; A failure is a condition below PLAN-FAILURE, which is a serious condition and not an error, as
-;;;; in CRAM.  FAIL signals one; WITH-FAILURE-HANDLING handles it before the stack is unwound, and
-;;;; its handlers may RETRY.  The macros expand into lambdas and calls of ordinary functions, so
-;;;; that compiled and symbolically executed plans share one meaning.
+;;;; in CRAM.  FAIL signals one: handlers of the current task have it first, on top of the failing
+;;;; stack; then the task ends with it and its parent fails in the same way.  What handles it stands
+;;;; in failure-handling.lisp, the classes of CRAM's package common-fail in failure-classes.lisp.
 
 (in-package #:discrepancy-finder.plan-language)
-
-;;; Failure classes, named as in CRAM's package cram-common-failures.
 
 (define-condition plan-failure (serious-condition)
   ()
@@ -18,156 +16,86 @@
   (:default-initargs :format-control "Plan failure.")
   (:documentation "A failure that is described by a format control and its arguments."))
 
-(define-condition low-level-failure (plan-failure)
-  ((description :initarg :description :initform "" :reader low-level-failure-description
-                :documentation "What happened, as a string."))
+(define-condition composite-failure (plan-failure)
+  ((failures :initarg :failures :initform '() :reader composite-failures
+             :documentation "The list of the failures."))
   (:report (lambda (condition stream)
-             (format stream "~(~a~)~@[: ~a~]"
-                     (type-of condition)
-                     (let ((text (low-level-failure-description condition)))
-                       (and (string/= text "") text)))))
-  (:documentation "Root of the failures that process modules signal."))
+             (format stream "All of ~d tasks failed~{~^: ~@{~a~^; ~}~}"
+                     (length (composite-failures condition))
+                     (mapcar #'princ-to-string (composite-failures condition)))))
+  (:documentation "Signaled when all of several ways have failed."))
 
-(defmacro define-failures (&rest clauses)
-  "Define condition classes; a clause is (name parent documentation)."
-  `(progn
-     ,@(loop for (name parent documentation) in clauses
-             collect `(define-condition ,name (,parent) () (:documentation ,documentation)))))
+(define-condition common-lisp-error-envelope (plan-failure)
+  ((error :initarg :error :reader envelop-error
+          :documentation "The condition that ended a task."))
+  (:report (lambda (condition stream)
+             (format stream "A task ended with an error: ~a" (envelop-error condition))))
+  (:documentation "An error of Lisp on its way up from the task in which it happened: a failure of
+that task.  A clause of WITH-FAILURE-HANDLING for the class of the error handles it."))
 
-(define-failures
-  (manipulation-low-level-failure low-level-failure "A failure of an arm or a gripper.")
-  (manipulation-goal-not-reached manipulation-low-level-failure
-    "The arm stopped before its goal.")
-  (manipulation-pose-unreachable manipulation-low-level-failure
-    "No configuration of the arm reaches the pose.")
-  (gripper-low-level-failure manipulation-low-level-failure "A failure of a gripper.")
-  (gripper-closed-completely gripper-low-level-failure
-    "The gripper closed and there was nothing between its fingers.")
-  (gripper-goal-not-reached gripper-low-level-failure "The gripper stopped before its goal.")
-  (navigation-low-level-failure low-level-failure "A failure of the base.")
-  (navigation-pose-unreachable navigation-low-level-failure "The base cannot get to the pose.")
-  (navigation-goal-not-reached navigation-low-level-failure "The base stopped before its goal.")
-  (perception-low-level-failure low-level-failure "A failure of perception.")
-  (perception-object-not-found perception-low-level-failure
-    "Nothing that matches the designator is seen."))
+(define-condition policy-condition (condition)
+  ()
+  (:documentation "Root of what policies signal: neither a plan failure nor an error, as in CRAM."))
+
+(define-condition policy-not-found (policy-condition)
+  ((name :initarg :name :reader policy-not-found-name :documentation "The name."))
+  (:report (lambda (condition stream)
+             (format stream "There is no policy named ~(~a~)." (policy-not-found-name condition))))
+  (:documentation "Signaled when no policy has the name that was given."))
+
+(define-condition policy-failure (policy-condition)
+  ((policy :initarg :policy :reader policy-failure-policy :documentation "The policy.")
+   (parameters :initarg :parameters :initform '() :reader policy-failure-parameters
+               :documentation "The list of its arguments."))
+  (:report (lambda (condition stream)
+             (format stream "~(~a~) of ~a with the arguments ~s."
+                     (type-of condition) (policy-failure-policy condition)
+                     (policy-failure-parameters condition))))
+  (:documentation "Root of the failures of policies."))
+
+(define-condition policy-init-failed (policy-failure) ()
+  (:documentation "Signaled when the :INIT part of a policy returns NIL."))
+(define-condition policy-check-condition-met (policy-failure) ()
+  (:documentation "Signaled when the :CHECK part of a policy has become true."))
+
+(define-condition task-left-by-jump (plan-error control-error)
+  ((task :initarg :task :reader task-left-by-jump-task
+         :documentation "What the task was, in words."))
+  (:report (lambda (condition stream)
+             (format stream "~a was left by a jump; a task ends only by its own end or by a ~
+                             failure."
+                     (task-left-by-jump-task condition))))
+  (:documentation "Signaled in a task after a RETURN-FROM, GO or THROW out of one of its
+children."))
+
+(define-task-variable *break-on-plan-failures* nil
+  "A type: when a plan failure of it is signaled by FAIL the debugger is entered first, with a
+restart to go on.  T stands for all, NIL for none.")
+
+(defun failure-from (arguments)
+  "Return the condition that ARGUMENTS of FAIL mean."
+  (let ((datum (first arguments)))
+    (etypecase datum
+      (null (make-condition 'simple-plan-failure))
+      (string (make-condition 'simple-plan-failure :format-control datum
+                                                   :format-arguments (rest arguments)))
+      (symbol (apply #'make-condition datum (rest arguments)))
+      (condition datum))))
+
+(defgeneric on-fail (failure)
+  (:documentation "Called with each FAILURE that FAIL signals, before it does.")
+  (:method (failure) (declare (ignore failure))))
 
 (defun fail (&rest arguments)
   "Signal a plan failure; never returns.  Without ARGUMENTS it is a SIMPLE-PLAN-FAILURE, with a
 string and arguments for it one with this text, with a class name and initargs one of this class,
-with a condition just that."
-  (let ((datum (first arguments)))
-    (error (etypecase datum
-             (null (make-condition 'simple-plan-failure))
-             (string (make-condition 'simple-plan-failure :format-control datum
-                                                          :format-arguments (rest arguments)))
-             (symbol (apply #'make-condition datum (rest arguments)))
-             (condition datum)))))
-
-;;; Failure handling
-
-(defun retry ()
-  "Inside a handler of WITH-FAILURE-HANDLING, begin its body again.  Anywhere else this signals
-MALFORMED-PLAN-FORM."
-  (error 'malformed-plan-form :form '(retry)
-                              :expected "an enclosing handler of with-failure-handling"))
-
-(defun call-with-failure-handlers (handlers body)
-  "Call BODY; each condition signaled meanwhile is handed to every handler of the list HANDLERS of
-(type . function) whose type it has, in order.  One that returns has declined."
-  (handler-bind ((condition (lambda (condition)
-                              (loop for (type . handler) in handlers
-                                    when (typep condition type)
-                                      do (funcall handler condition)))))
-    (funcall body)))
-
-(defun check-failure-clause (clause form)
-  (unless (and (consp clause) (consp (rest clause)) (listp (second clause))
-               (<= (length (second clause)) 1))
-    (error 'malformed-plan-form :form form :expected "a list of clauses (class (variable) form*)")))
-
-(defun failure-handler (clause)
-  "Return a form for the (type . function) of CLAUSE."
-  (destructuring-bind (type (&optional (variable nil named)) &body handler) clause
-    (let ((parameter (if named variable (gensym "FAILURE"))))
-      `(cons ',type (lambda (,parameter)
-                      (declare (ignorable ,parameter))
-                      ,@handler)))))
-
-(defmacro with-failure-handling (clauses &body body)
-  "Evaluate BODY and return its values.  CLAUSES are (type ([variable]) form*): when a condition of
-TYPE, a class or (or class*), is signaled in BODY, the forms run before the stack is unwound.  They
-may call RETRY, leave by RETURN, or end normally: then the next clause that fits and after it the
-outer handlers have their turn.  Semantics are CRAM's."
-  (let ((again (gensym "AGAIN")))
-    `(block nil
-       (tagbody
-          ,again
-          (return
-            (call-with-failure-handlers
-             (flet ((retry () (go ,again)))
-               (declare (ignorable #'retry))
-               (list ,@(loop for clause in clauses
-                             do (check-failure-clause clause `(with-failure-handling ,clauses))
-                             collect (failure-handler clause))))
-             (lambda () ,@body)))))))
-
-;;; Retry counters
-
-(defstruct (retry-counter (:constructor make-retry-counter (initial count)))
-  "How often something may still be tried again; INITIAL is called for the number at a reset."
-  (initial #'identity :type function :read-only t)
-  (count 0 :type integer))
-
-(defun take-retry (counter)
-  "Count one retry of COUNTER and return true, or return NIL if none is left."
-  (when (plusp (retry-counter-count counter))
-    (decf (retry-counter-count counter))
-    t))
-
-(defun restart-counter (counter)
-  (setf (retry-counter-count counter) (funcall (retry-counter-initial counter))))
-
-(defun counter-form (name form environment)
-  "Return the form for the retry counter NAME that is lexically visible in ENVIRONMENT.  Signals
-MALFORMED-PLAN-FORM for FORM if there is none."
-  (let ((variable (counter-variable name)))
-    (if (nth-value 1 (macroexpand-1 variable environment))
-        variable
-        (error 'malformed-plan-form
-               :form form
-               :expected (format nil "a retry counter ~(~a~) of an enclosing with-retry-counters"
-                                 name)))))
-
-(defun counter-variable (name)
-  "Return the symbol under which the retry counter NAME is known: not NAME itself, which the plan
-may use for a variable of its own."
-  (intern (format nil "RETRY-COUNTER ~a:~a"
-                  (package-name (or (symbol-package name) *package*)) name)
-          '#:discrepancy-finder.plan-language))
-
-(defmacro with-retry-counters (bindings &body body)
-  "Evaluate BODY with retry counters: BINDINGS are (name number).  In BODY, (do-retry name form*)
-evaluates the forms and counts down while retries are left and returns NIL afterwards,
-(get-counter name) returns what is left, (reset-counter name) starts again."
-  (let ((variables (loop for nil in bindings collect (gensym "COUNTER"))))
-    `(let ,(loop for variable in variables
-                 for (nil number) in bindings
-                 collect `(,variable (make-retry-counter (lambda () ,number) ,number)))
-       (declare (ignorable ,@variables))
-       (symbol-macrolet ,(loop for variable in variables
-                               for (name nil) in bindings
-                               collect `(,(counter-variable name) ,variable))
-         ,@body))))
-
-(defmacro do-retry (&whole form name &body forms &environment environment)
-  "Inside WITH-RETRY-COUNTERS, evaluate FORMS and count down the counter NAME if it has retries
-left; else return NIL."
-  `(when (take-retry ,(counter-form name form environment)) ,@forms))
-
-(defmacro get-counter (&whole form name &environment environment)
-  "Inside WITH-RETRY-COUNTERS, return the number of retries that the counter NAME has left."
-  `(retry-counter-count ,(counter-form name form environment)))
-
-(defmacro reset-counter (&whole form name &environment environment)
-  "Inside WITH-RETRY-COUNTERS, give the counter NAME its initial number of retries again."
-  `(restart-counter ,(counter-form name form environment)))
+with a condition just that.  Inside of a task a plan failure that nobody handles ends the task;
+anything else is signaled by ERROR."
+  (let ((failure (failure-from arguments)))
+    (on-fail failure)
+    (when (and *break-on-plan-failures* (typep failure *break-on-plan-failures*))
+      (break "~a" failure))
+    (cond ((and *current-task* (typep failure 'plan-failure))
+           (signal failure)
+           (fail-task *current-task* failure))
+          (t (error failure)))))

@@ -50,56 +50,59 @@ DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
 (defun record-plan (plan)
   (setf (gethash (plan-name plan) *plans*) plan))
 
-(defvar *in-top-level* nil
-  "True while a top-level runs.")
-
-(defun call-in-top-level (function)
-  (when *in-top-level*
-    (error 'nested-top-level))
-  (let ((*in-top-level* t))
-    (funcall function)))
-
-(defmacro top-level (&body body)
-  "Evaluate BODY as a program of its own and return its values.  Top-levels cannot be nested."
-  `(call-in-top-level (lambda () ,@body)))
-
-(defmacro seq (&body body)
-  "Evaluate the forms of BODY one after the other; return the values of the last."
-  `(progn ,@body))
-
 (defun split-body (body)
   "Return the forms, the declarations and the documentation string of the function body BODY."
   (alexandria:parse-body body :documentation t))
 
+(defun parameters (lambda-list)
+  "Return the variables of LAMBDA-LIST."
+  (multiple-value-bind (required optional rest keywords) (alexandria:parse-ordinary-lambda-list
+                                                           lambda-list)
+    (append required (mapcar #'first optional) (and rest (list rest))
+            (mapcar #'cadar keywords))))
+
+(defun task-form (name lambda-list forms top-level-p)
+  "Return the form that runs FORMS as the task of the plan NAME."
+  (let ((body `(lambda ()
+                 (symbol-macrolet ((%plan-name ,name))
+                   (block ,name (with-tags ,@forms))))))
+    (if top-level-p
+        `(call-in-top-level ,body ',name)
+        `(call-in-task ',name '(,name) ,body
+                       :code '(,name ,@lambda-list)
+                       :parameters (lambda () (list ,@(parameters lambda-list)))))))
+
 (defun definition (form name lambda-list body top-level-p)
+  (unless (and (symbolp name) (listp lambda-list))
+    (error 'malformed-plan-form :form form :expected "(name (parameter*) form*)"))
   (multiple-value-bind (forms declarations documentation) (split-body body)
-    `(progn
-       (defun ,name ,lambda-list
-         ,@(and documentation (list documentation))
-         ,@declarations
-         ,(if top-level-p `(top-level ,@forms) `(progn ,@forms)))
-       (record-plan (make-plan :name ',name :lambda-list ',lambda-list
-                               :body '(,@declarations
-                                       ,@(if top-level-p `((top-level ,@forms)) forms))
-                               :documentation ,documentation :top-level-p ,top-level-p
-                               :position (source:form-position ',form)))
-       ',name)))
+    (let ((task (task-form name lambda-list forms top-level-p)))
+      `(progn
+         (defun ,name ,lambda-list
+           ,@(and documentation (list documentation))
+           ,@declarations
+           ,task)
+         (record-plan (make-plan :name ',name :lambda-list ',lambda-list
+                                 :body '(,@declarations ,task)
+                                 :documentation ,documentation :top-level-p ,top-level-p
+                                 :position (source:form-position ',form)))
+         ',name))))
 
 (defmacro def-cram-function (&whole form name lambda-list &body body)
-  "Define NAME as a plan: a function that other plans call.  Its source is kept for FIND-PLAN."
+  "Define NAME as a plan: a function that other plans call, each time in a task of its own.  Its
+source is kept for FIND-PLAN.  Calling it outside of a top-level signals NOT-IN-TOP-LEVEL."
+  (definition form name lambda-list body nil))
+
+(defmacro def-plan (&whole form name lambda-list &body body)
+  "The same as DEF-CRAM-FUNCTION."
   (definition form name lambda-list body nil))
 
 (defmacro def-top-level-cram-function (&whole form name lambda-list &body body)
   "Define NAME as a plan that runs in a TOP-LEVEL of its own.  Its source is kept for FIND-PLAN."
   (definition form name lambda-list body t))
 
-(defun load-plan (file)
-  "Load FILE, a file of plan definitions read in the package DISCREPANCY-FINDER-USER, and return
-the list of the plans that it defines, in their order.  Signals SOURCE-ERROR, which names file and
-line, if it cannot be read or loaded."
-  (let ((before (alexandria:hash-table-values *plans*)))
-    (source:load-source file :package '#:discrepancy-finder-user)
-    (sort (set-difference (alexandria:hash-table-values *plans*) before)
-          #'< :key (lambda (plan)
-                     (let ((position (plan-position plan)))
-                       (if position (source:source-position-line position) 0))))))
+(defun ensure-top-level (function name)
+  "Call FUNCTION in a top-level NAME of its own, unless one runs, and return its values."
+  (if *current-task*
+      (funcall function)
+      (call-in-top-level function name)))

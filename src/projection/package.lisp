@@ -18,7 +18,7 @@
    #:projection-scene #:observed-pose #:held-item #:settle #:interpenetration #:state-hash
    #:simulated-seconds
    ;; process modules
-   #:execute-designator #:drive-base #:move-arm
+   #:execute-designator #:executes-p #:drive-base #:move-arm
    ;; conditions
    #:projection-error #:scene-error #:scene-error-file #:scene-error-reason #:urdf-error
    #:unknown-parameter #:impossible-parameter #:unknown-body))

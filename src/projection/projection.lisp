@@ -138,12 +138,38 @@ execution fails, DESIGNATOR-NOT-UNDERSTOOD if it cannot be interpreted.")
            :designator designator :executive "The projection"
            :reason (format nil "no process module is for ~(~a~)s of type ~(~a~)" class type))))
 
+;; The time of a projection is that of its world.
+
+(defmethod plan:executive-clock ((projection projection))
+  projection)
+
+(defmethod plan:clock-time ((projection projection))
+  (float (simulated-seconds projection) 1d0))
+
+(defmethod plan:let-time-pass ((projection projection) seconds)
+  (foreign:with-c-float-traps
+    (loop repeat (ceiling seconds +time-step+)
+          do (step-projection projection))))
+
+(defun executes-p (projection designator)
+  "Return true if PROJECTION has a process module for DESIGNATOR."
+  (let ((default (find-method #'execute-designator '() (list (find-class 'projection) t t t))))
+    (not (eq default
+             (first (compute-applicable-methods
+                     #'execute-designator
+                     (list projection (plan:designator-class-keyword designator)
+                           (plan:desig-prop-value designator :type) designator)))))))
+
 (defmethod plan:perform-with ((projection projection) designator position)
   (declare (ignore position))
-  ;; The float traps of C are set once an execution; the plan itself has those of Lisp.
-  (foreign:with-c-float-traps
-    (execute-designator projection (plan:designator-class-keyword designator)
-                        (plan:desig-prop-value designator :type) designator)))
+  (if (and (not (executes-p projection designator)) (plan:plan-known-p designator))
+      (call-next-method)
+      (plan:call-on-main
+       (lambda ()
+         ;; The float traps of C are set once an execution; the plan itself has those of Lisp.
+         (foreign:with-c-float-traps
+           (execute-designator projection (plan:designator-class-keyword designator)
+                               (plan:desig-prop-value designator :type) designator))))))
 
 (defun misunderstood (designator reason)
   (error 'plan:designator-not-understood :designator designator :executive "The projection"

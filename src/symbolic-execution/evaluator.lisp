@@ -108,12 +108,20 @@
   (let ((plan (and (symbolp name) (plan:plan-source name))))
     (if plan (interpreted-plan plan) (fdefinition name))))
 
+(defparameter *transparent-functions*
+  (list* 'list 'cons 'list* plan:*control-functions*)
+  "Compiled functions that hand symbolic values on as they are.")
+
+(defun analyze-transparent-call (name arguments)
+  (lambda (frame)
+    (apply (fdefinition name) (evaluate-arguments arguments frame))))
+
 (defun analyze-global-call (form scope)
   (let* ((name (first form))
          (arguments (analyze-arguments (rest form) scope))
          (description (describe-form form)))
     (case name
-      ((not null)
+      ((not null discrepancy-finder.cpl:not)
        (let ((argument (first arguments)))
          (unless (= (length arguments) 1) (unsupported form "one argument was expected"))
          (lambda (frame)
@@ -132,9 +140,11 @@
            (apply #'plan:perform (append (evaluate-arguments arguments frame)
                                          (and (= (length arguments) 1) (list position)))))))
       (t
-       (lambda (frame)
-         (call-function (global-function name) (evaluate-arguments arguments frame)
-                        description))))))
+       (if (member name *transparent-functions*)
+           (analyze-transparent-call name arguments)
+           (lambda (frame)
+             (call-function (global-function name) (evaluate-arguments arguments frame)
+                            description)))))))
 
 ;;; Plans
 

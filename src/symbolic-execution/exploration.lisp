@@ -124,8 +124,8 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
 
 (defun call-plan (plan function arguments doom)
   "Call FUNCTION with ARGUMENTS for the plan named PLAN.  An error that the plan does not handle is
-signaled as PLAN-BROKE, on top of the stack where it happened, after the function DOOM was called
-with that condition."
+signaled as PLAN-BROKE, where the plan's top-level is left, after the function DOOM was called with
+that condition."
   (handler-bind ((error (lambda (condition)
                           (let ((final (if (typep condition
                                                   '(or symbolic-execution-error z3:z3-error
@@ -136,7 +136,9 @@ with that condition."
                             (funcall doom final)
                             (unless (eq final condition)
                               (error final))))))
-    (apply function arguments)))
+    (if (plan:plan-top-level-p (plan:find-plan plan))
+        (apply function arguments)
+        (plan:ensure-top-level (lambda () (apply function arguments)) plan))))
 
 (defun run-plan-on (path function arguments)
   "Call FUNCTION, the interpreted plan, with ARGUMENTS on PATH and note how the run ends.  Signals

@@ -12,7 +12,7 @@
    #:action-theory-actions #:define-action #:register-action #:region-of-pose #:region-of
    #:action-binding #:find-action-binding #:find-action-theory #:register-action-theory
    #:all-action-theories
-   #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition
+   #:entered-p #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition
    ;; exploration
    #:explore-plan #:make-exploration #:next-trace #:exploration #:exploration-traces
    #:exploration-paths #:exploration-checks #:exploration-seconds #:exploration-complete-p

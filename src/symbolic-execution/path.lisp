@@ -3,7 +3,7 @@
 ;;;; A PATH is the executive of one symbolic run.  Where the run could go on in several ways, DECIDE
 ;;;; takes one and notes the others as prefixes for later runs; a run begins by repeating its own
 ;;;; prefix.  The path's solver holds what must be true of the initial state for the run to go this
-;;;; way.  Abandoning a path leaves the plan by THROW, so that no handler of the plan sees it.
+;;;; way.  Abandoning a path leaves the plan with all its tasks; no handler of the plan sees it.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -39,7 +39,7 @@ of the plan.  ENDING says why the run is over, :ERROR if by the condition FATAL.
 (defun abandon (path ending)
   "Leave the run of PATH; ENDING, a keyword, says why."
   (setf (path-ending path) ending)
-  (throw path nil))
+  (plan:leave-plan path))
 
 (defun doom (path condition)
   "Note that the run of PATH is over because of CONDITION, an error, which is going to unwind it.
@@ -47,17 +47,20 @@ What cleanup forms of the plan do meanwhile is without effect, and cannot make i
   (setf (path-ending path) :error
         (path-fatal path) condition))
 
+(defun call-outside-the-plan (path function)
+  (plan:call-on-main
+   (lambda ()
+     (plan:with-handlers ((path-handlers path))
+       (handler-bind ((error (lambda (condition) (doom path condition))))
+         (multiple-value-prog1 (funcall (the function function))
+           (when (path-fatal path)
+             (setf (path-ending path) nil
+                   (path-fatal path) nil))))))))
+
 (defmacro outside-the-plan ((path) &body body)
-  "Evaluate BODY, which is no business of the plan: its errors are for handlers from outside, and
-doom the run unless they return."
-  (let ((run (gensym "PATH")))
-    `(let ((,run ,path))
-       (plan:with-handlers ((path-handlers ,run))
-         (handler-bind ((error (lambda (condition) (doom ,run condition))))
-           (multiple-value-prog1 (progn ,@body)
-             (when (path-fatal ,run)
-               (setf (path-ending ,run) nil
-                     (path-fatal ,run) nil))))))))
+  "Evaluate BODY, which is no business of the plan, on the thread of the top-level: its errors are
+for handlers from outside, and doom the run unless they return."
+  `(call-outside-the-plan ,path (lambda () ,@body)))
 
 (defun count-jump (path)
   "Count a jump in a loop of the plan; abandon PATH after too many."
@@ -181,17 +184,17 @@ conses, which the list of an &rest parameter may be, and in what an interpreted 
         (t value)))
 
 ;;; Side effects on global variables are undone between runs.  The journal is a list of
-;;; (symbol . restoring function).  A write to a variable that the plan has bound itself is
-;;; forgotten when the binding ends.
+;;; (symbol task . restoring function).  A write to a variable that a task has bound itself is
+;;; forgotten when the binding ends; what another task writes meanwhile is the global value.
 
 (defun note-write (symbol)
   "Remember the value of SYMBOL, so that it can be restored after the run."
   (when *path*
-    (push (cons symbol
-                (if (boundp symbol)
-                    (let ((value (symbol-value symbol)))
-                      (lambda () (setf (symbol-value symbol) value)))
-                    (lambda () (makunbound symbol))))
+    (push (list* symbol (plan:current-task)
+                 (if (boundp symbol)
+                     (let ((value (symbol-value symbol)))
+                       (lambda () (setf (symbol-value symbol) value)))
+                     (lambda () (makunbound symbol))))
           (path-journal *path*))))
 
 (defmacro with-forgotten-writes ((symbols) &body body)
@@ -202,10 +205,12 @@ conses, which the list of an &rest parameter may be, and in what an interpreted 
        (unwind-protect (progn ,@body)
          (when *path*
            (setf (path-journal *path*)
-                 (append (remove-if (lambda (entry) (member (car entry) ,names))
+                 (append (remove-if (lambda (entry)
+                                      (and (member (first entry) ,names)
+                                           (eq (second entry) (plan:current-task))))
                                     (ldiff (path-journal *path*) ,mark))
                          ,mark)))))))
 
 (defun undo-writes (path)
-  (loop for (nil . restore) in (path-journal path) do (funcall restore))
+  (loop for (nil nil . restore) in (path-journal path) do (funcall restore))
   (setf (path-journal path) '()))

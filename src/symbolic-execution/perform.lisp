@@ -54,11 +54,21 @@ must be true for it."
       (push next (path-states path))
       outcome)))
 
+(defun entered-p (domain designator)
+  "Return true if DESIGNATOR has no action binding in DOMAIN but a plan of its own: performing it
+enters that plan."
+  (and (null (find-action-binding domain designator))
+       (plan:plan-known-p designator)))
+
 (defmethod plan:perform-with ((path path) designator position)
   (cond ((path-fatal path) nil)         ; an error unwinds: let it go on
-        ((path-ending path) (throw path nil))
+        ((path-ending path) (plan:leave-plan path))
+        ((entered-p (path-domain path) designator) (call-next-method))
         ((>= (length (path-steps path)) (path-max-steps path)) (abandon path :too-many-steps))
         (t (let ((outcome (outside-the-plan (path) (take-step path designator position))))
              (if (eq (outcome-name outcome) :success)
                  (outcome-value outcome)
                  (plan:fail (outcome-name outcome)))))))
+
+(defmethod plan:call-plan-function ((path path) name arguments)
+  (apply (global-function name) arguments))

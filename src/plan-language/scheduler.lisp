@@ -1,0 +1,241 @@
+;;;; The scheduler: one strand runs at a time, and which one is a function of program and seed.
+;;;;
+;;;; There is one baton in a top-level.  A strand keeps it until it blocks (BLOCK-STRAND), gives way
+;;;; (YIELD) or ends; then the strand gets it that has been ready for longest or, with a seed other
+;;;; than 0, one that a generator of random numbers picks.  When every strand waits, time passes
+;;;; until the first deadline; when there is none either, the program is in a DEADLOCK.
+;;;;
+;;;; A strand that gets the baton back looks first whether its tasks are to be left (an executive
+;;;; leaves the plan, the task evaporates) or suspended: CHECK-EVENTS in task-control.lisp.
+
+(in-package #:discrepancy-finder.plan-language)
+
+(defstruct (scheduler (:copier nil))
+  "The state of a top-level.  READY is a queue of strands, SLEEPERS a list of (deadline ticket .
+strand) in the order of deadlines, LIVE the strands that have not ended.  LEAVING is NIL or a list:
+(:tag tag value) or (:error condition) or (:abort).  HANDLERS are for all tasks.  OUTSIDE are the
+bindings, OUTSIDE-HANDLERS and OUTSIDE-RESTARTS what was in force around the top-level.  REQUEST is
+what a strand asks the thread of the top-level to do (requests.lisp)."
+  (main nil)
+  (current nil)
+  (ready (make-queue))
+  (sleepers '() :type list)
+  (live '() :type list)
+  (count 0 :type fixnum)
+  (idle-since nil)
+  (clock nil)
+  (random nil)
+  (seed 0)
+  (suspensions 0 :type fixnum)
+  (uninterrupted nil)
+  (leaving nil)
+  (handlers '())
+  (outside '())
+  (outside-handlers '())
+  (outside-restarts '())
+  (request nil)
+  (thread nil)
+  (float-modes '()))
+
+(defmethod print-object ((scheduler scheduler) stream)
+  (print-unreadable-object (scheduler stream :type t :identity t)
+    (format stream "~d strand~:p" (length (scheduler-live scheduler)))))
+
+(defparameter *scheduling-seed* 0
+  "The seed of the order in which tasks take turns.  With 0 they take turns in a fixed order, the
+one that has been ready for longest first; other seeds pick at random, each always in the same
+way.")
+
+(defparameter *idle-limit* 3600
+  "When nothing but policy checks has run for so many seconds of the clock, it is a deadlock.")
+
+;;; Queues
+
+(defstruct (queue (:copier nil))
+  (head '() :type list)
+  (tail '() :type list))
+
+(defun enqueue (item queue)
+  (let ((cell (list item)))
+    (if (queue-head queue)
+        (setf (rest (queue-tail queue)) cell)
+        (setf (queue-head queue) cell))
+    (setf (queue-tail queue) cell)))
+
+(defun dequeue (queue position)
+  "Remove the item at POSITION from QUEUE and return it."
+  (if (zerop position)
+      (pop (queue-head queue))
+      (let* ((before (nthcdr (1- position) (queue-head queue)))
+             (item (second before)))
+        (when (eq (rest before) (queue-tail queue))
+          (setf (queue-tail queue) before))
+        (setf (rest before) (cddr before))
+        item)))
+
+;;; Choosing the next strand
+
+(defgeneric choose-strand (executive scheduler count)
+  (:documentation "Return which of the COUNT ready strands of SCHEDULER, 0 to COUNT - 1 in the order
+in which they became ready, gets the baton.  An executive that explores all orders has a method.")
+  (:method (executive scheduler count)
+    (declare (ignore executive))
+    (if (scheduler-random scheduler)
+        (random count (scheduler-random scheduler))
+        0)))
+
+(defun make-ready (strand)
+  (setf (strand-state strand) :ready)
+  (enqueue strand (scheduler-ready (strand-scheduler strand))))
+
+(defun wake-sleepers (scheduler)
+  "Make the strands whose deadline is past ready."
+  (when (scheduler-sleepers scheduler)
+    (let ((now (clock-time (scheduler-clock scheduler))))
+      (loop while (and (scheduler-sleepers scheduler)
+                       (<= (first (first (scheduler-sleepers scheduler))) now))
+            do (destructuring-bind (ticket . strand) (rest (pop (scheduler-sleepers scheduler)))
+                 (when (and (eq (strand-state strand) :waiting) (eql ticket (strand-ticket strand)))
+                   (setf (strand-timed-out strand) t)
+                   (make-ready strand)))))))
+
+(defun next-deadline (scheduler)
+  "Return the deadline of the strand that sleeps for the shortest time, or NIL if none sleeps."
+  (loop while (and (scheduler-sleepers scheduler)
+                   (destructuring-bind (ticket . strand) (rest (first (scheduler-sleepers
+                                                                       scheduler)))
+                     (not (and (eq (strand-state strand) :waiting)
+                               (eql ticket (strand-ticket strand))))))
+        do (pop (scheduler-sleepers scheduler)))
+  (first (first (scheduler-sleepers scheduler))))
+
+(defun idle-too-long-p (scheduler strand)
+  "Note that STRAND goes on.  Return true if only pollers have for too long."
+  (let ((now (clock-time (scheduler-clock scheduler))))
+    (cond ((not (strand-poller strand))
+           (setf (scheduler-idle-since scheduler) nil))
+          ((null (scheduler-idle-since scheduler))
+           (setf (scheduler-idle-since scheduler) now)
+           nil)
+          (t (and (> now (+ (scheduler-idle-since scheduler) *idle-limit*))
+                  (notany (lambda (sleeper) (not (strand-poller (cddr sleeper))))
+                          (scheduler-sleepers scheduler)))))))
+
+(defun pick-ready (scheduler)
+  "Remove the strand that goes on next from the ready ones and return it."
+  (let* ((ready (scheduler-ready scheduler))
+         (strands (queue-head ready)))
+    (dequeue ready (if (rest strands)
+                       (choose-strand *executive* scheduler (length strands))
+                       0))))
+
+(defun next-strand (scheduler)
+  "Return the strand that goes on next.  In a deadlock that is the main one, which is told."
+  (flet ((deadlock ()
+           (setf (scheduler-leaving scheduler) (list :error (make-deadlock scheduler)))
+           (return-from next-strand (scheduler-main scheduler))))
+    (loop
+      (wake-sleepers scheduler)
+      (if (queue-head (scheduler-ready scheduler))
+          (let ((strand (pick-ready scheduler)))
+            (when (idle-too-long-p scheduler strand)
+              (deadlock))
+            (return strand))
+          (let ((deadline (next-deadline scheduler)))
+            (unless deadline
+              (deadlock))
+            (let-time-pass (scheduler-clock scheduler)
+              (- deadline (clock-time (scheduler-clock scheduler)))))))))
+
+(defun make-deadlock (scheduler)
+  (make-condition 'deadlock
+                  :waiting (loop for strand in (reverse (scheduler-live scheduler))
+                                 when (eq (strand-state strand) :waiting)
+                                   collect (cons (task-text (strand-task strand))
+                                                 (waiting-text (strand-waiting strand))))))
+
+(defun waiting-text (waiting)
+  (if (functionp waiting) (funcall waiting) (princ-to-string waiting)))
+
+;;; The baton
+
+(defun hand-over (strand)
+  "Give the baton to STRAND, another one than that of the caller."
+  (let ((scheduler (strand-scheduler strand)))
+    (setf (scheduler-current scheduler) strand
+          (strand-state strand) :running)
+    (when (strand-function strand)
+      (let ((worker (employ (shiftf (strand-function strand) nil))))
+        (setf (strand-worker strand) worker
+              (strand-semaphore strand) (worker-semaphore worker))))
+    (sb-thread:signal-semaphore (strand-semaphore strand))))
+
+(defun await-baton (strand)
+  "Wait for the baton.  The main strand serves requests of others meanwhile."
+  (let ((scheduler (strand-scheduler strand)))
+    (loop
+      (sb-thread:wait-on-semaphore (strand-semaphore strand))
+      (if (and (eq strand (scheduler-main scheduler)) (scheduler-request scheduler))
+          (serve scheduler (shiftf (scheduler-request scheduler) nil))
+          (return)))))
+
+(defun switch (strand)
+  "Let the next strand run, and return when STRAND, the caller's, has the baton again."
+  (let ((next (next-strand (strand-scheduler strand))))
+    (cond ((eq next strand)
+           (setf (strand-state strand) :running))
+          (t (hand-over next)
+             (await-baton strand)))))
+
+(defun current-strand ()
+  (task-strand *current-task*))
+
+(defun await-turn (strand waiting &optional deadline)
+  "Let STRAND, the current one, wait until somebody wakes it or DEADLINE is past."
+  (setf (strand-state strand) :waiting
+        (strand-waiting strand) waiting
+        (strand-timed-out strand) nil)
+  (incf (strand-ticket strand))
+  (when deadline
+    (let ((scheduler (strand-scheduler strand)))
+      (setf (scheduler-sleepers scheduler)
+            (merge 'list (scheduler-sleepers scheduler)
+                   (list (list* deadline (strand-ticket strand) strand))
+                   #'< :key #'first))))
+  (switch strand)
+  (setf (strand-waiting strand) nil))
+
+(defun block-strand (waiting &key deadline)
+  "Let other strands run until somebody wakes the current one or, if there is a DEADLINE (s), this
+is past.  WAITING says for what, in words or as a function that returns them.  Return false if the
+deadline is past.  A strand may also be woken without reason."
+  (let ((strand (current-strand)))
+    (check-events strand)
+    (await-turn strand waiting deadline)
+    (check-events strand)
+    (not (strand-timed-out strand))))
+
+(defun wake (strand)
+  "Make STRAND ready if it waits."
+  (when (eq (strand-state strand) :waiting)
+    (make-ready strand)))
+
+(defun alone-p (scheduler)
+  "Return true if no other strand than the current one is there."
+  (null (rest (scheduler-live scheduler))))
+
+(defun yield ()
+  "Let the strands go on that are ready, if there are some, before the current one does."
+  (when *current-task*
+    (let* ((strand (current-strand))
+           (scheduler (strand-scheduler strand)))
+      (cond ((scheduler-uninterrupted scheduler))
+            ((and (alone-p scheduler) (null (scheduler-leaving scheduler))
+                  (zerop (scheduler-suspensions scheduler))
+                  (null (task-evaporation *current-task*))))
+            (t
+             (wake-sleepers scheduler)
+             (when (queue-head (scheduler-ready scheduler))
+               (make-ready strand)
+               (switch strand))
+             (check-events strand))))))
