@@ -101,7 +101,8 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
-               (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")))
+               (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")
+               (:file "rays")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -219,6 +220,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "evaluator") (:file "exploration")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
+               (:file "bullet-rays")
                (:file "projection")
                (:module "discrepancy"
                 :serial t

@@ -1,13 +1,14 @@
 // Worlds, shapes and bodies of the Bullet shim; the API is in discrepancy-finder-bullet.h.
 //
-// The shim is one translation unit in four parts: world.inc has the data structures and the guard
+// The shim is one translation unit in five parts: world.inc has the data structures and the guard
 // that every entry passes, this file worlds, shapes and bodies, constraints.inc attachments and
-// ignored collisions, queries.inc all that looks and does not touch.
+// ignored collisions, queries.inc and rays.inc all that looks and does not touch.
 
 #include "discrepancy-finder-bullet.h"
 #include "world.inc"
 #include "constraints.inc"
 #include "queries.inc"
+#include "rays.inc"
 
 namespace {
 

@@ -12,7 +12,7 @@
  * The float environment of the caller is put aside during each call, so that a caller may keep
  * float traps on.  No exception leaves this library, and it has no state outside of the worlds:
  * any thread may use a world, one thread at a time; different worlds need no lock.  Equal calls in
- * equal order give equal bits; queries (reads, penetrations) change no later bit.
+ * equal order give equal bits; queries (reads, penetrations, rays) change no later bit.
  */
 #ifndef DISCREPANCY_FINDER_BULLET_H
 #define DISCREPANCY_FINDER_BULLET_H
@@ -110,6 +110,19 @@ DFB_API int dfb_penetration(dfb_world *world, int a, int b, double *depth);
 /* Find the deepest penetration of a pair that collides and has a dynamic body: write its depth and
  * the two bodies, or return DFB_NOTHING. */
 DFB_API int dfb_deepest_penetration(dfb_world *world, double *depth, int *a, int *b);
+
+/* Rays */
+/* Find the first body on the way from x, y, z to to_x, to_y, to_z (m, at least 1e-9 m apart), the
+ * passed_count bodies in passed aside: write it and the hit, 7 doubles: the point (m), the outward
+ * normal of the surface there, and the part, 0 to 1, of the way.  Return DFB_NOTHING if there is
+ * none.  A body in which the way begins is hit at once, with a normal against the way; what is only
+ * touched is hit; of two bodies hit at the same place it is the one with the smaller id. */
+DFB_API int dfb_cast_ray(dfb_world *world, double x, double y, double z, double to_x, double to_y,
+                         double to_z, int passed_count, const int *passed, int *body, double *hit);
+/* The same for count rays of 6 doubles each: write a body for each, -1 for none, and 7 doubles
+ * where there is one.  Return the number of rays that hit something. */
+DFB_API int dfb_cast_rays(dfb_world *world, int count, const double *rays, int passed_count,
+                          const int *passed, int *bodies, double *hits);
 #ifdef __cplusplus
 }
 #endif

@@ -23,4 +23,6 @@ order give equal bits, in any thread or process, and queries change no later bit
    ;; states of whole worlds
    #:make-state-vector #:read-state #:state-hash #:at-rest-p
    ;; queries
-   #:penetration #:deepest-penetration))
+   #:penetration #:deepest-penetration
+   ;; rays
+   #:cast-ray #:cast-rays))

@@ -63,6 +63,13 @@ seven doubles of a pose."
 (define-raw %deepest-penetration "dfb_deepest_penetration" :int
   (world :pointer) (depth :pointer) (a :pointer) (b :pointer))
 
+(define-raw %cast-ray "dfb_cast_ray" :int
+  (world :pointer) (x :double) (y :double) (z :double)
+  (to-x :double) (to-y :double) (to-z :double)
+  (passed-count :int) (passed :pointer) (body :pointer) (hit :pointer))
+(define-raw %cast-rays "dfb_cast_rays" :int
+  (world :pointer) (count :int) (rays :pointer)
+  (passed-count :int) (passed :pointer) (bodies :pointer) (hits :pointer))
 
 (defun status-name (status)
   "Return the keyword for a negative STATUS of the shim."
