@@ -193,7 +193,7 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "conditions") (:file "urdf") (:file "scene")
                (:file "robot") (:file "projection") (:file "motion") (:file "navigation")
-               (:file "manipulation")))
+               (:file "head") (:file "surface") (:file "perception") (:file "manipulation")))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
@@ -221,7 +221,7 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "evaluator") (:file "exploration")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
-               (:file "projection")
+               (:file "projection") (:file "perception")
                (:module "discrepancy"
                 :serial t
                 :components ((:file "random") (:file "quantile") (:file "least-squares")

@@ -49,8 +49,8 @@ not finite, or not 1e-9 m apart, or a body is of another world."
   "Cast many rays in WORLD, 10000 in one foreign call.  RAYS is a vector of double floats, six for
 each: where it begins and where it ends (m).  Return a vector with the first body on each, or NIL,
 and a vector of double floats, seven for each: point (m), outward normal, part of the way; zeros
-where there is no body.  PASSED is a list of bodies that the rays pass through.  Signals BULLET-ERROR
-if an end is not finite, a ray shorter than 1e-9 m, or a body of another world."
+where there is no body.  PASSED is a list of bodies that the rays pass through.  Signals
+BULLET-ERROR if an end is not finite, a ray shorter than 1e-9 m, or a body of another world."
   (declare (type (simple-array double-float (*)) rays))
   (multiple-value-bind (count rest) (floor (length rays) 6)
     (unless (zerop rest)

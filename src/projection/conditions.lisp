@@ -41,14 +41,18 @@
 
 (define-condition impossible-parameter (projection-error)
   ((name :initarg :name :reader impossible-parameter-name :documentation "The parameter's name.")
-   (value :initarg :value :reader impossible-parameter-value :documentation "What was given."))
+   (value :initarg :value :reader impossible-parameter-value :documentation "What was given.")
+   (limit :initarg :limit :initform nil :reader impossible-parameter-limit
+          :documentation "The largest possible value, or NIL if there is none."))
   (:report (lambda (condition stream)
              (let ((*read-default-float-format* 'double-float))
-               (format stream "The scene parameter ~(~a~) is ~(~s~) where a positive number was ~
-                               expected."
+               (format stream "The scene parameter ~(~a~) is ~(~s~) where a positive number~@[ of ~
+                               at most ~,4f~] was expected."
                        (impossible-parameter-name condition)
-                       (impossible-parameter-value condition)))))
-  (:documentation "Signaled when a scene parameter is given a value that is no positive number."))
+                       (impossible-parameter-value condition)
+                       (impossible-parameter-limit condition)))))
+  (:documentation "Signaled when a scene parameter is given a value that is no positive number, or
+beyond the limit of what it means."))
 
 (defmethod source:self-explaining-p ((condition scene-error)) t)
 (defmethod source:self-explaining-p ((condition urdf-error)) t)
@@ -60,3 +64,17 @@
              (format stream "The scene ~(~a~) has no robot and no item ~(~a~)."
                      (unknown-body-scene condition) (unknown-body-name condition))))
   (:documentation "Signaled when a body is named that a scene does not have."))
+
+(define-condition missing-robot-part (projection-error)
+  ((part :initarg :part :reader missing-robot-part-part
+         :documentation "The part in question, :HEAD or :CAMERA.")
+   (scene :initarg :scene :reader missing-robot-part-scene :documentation "The scene."))
+  (:report (lambda (condition stream)
+             (with-slots (part scene) condition
+               (format stream "The scene ~(~a~) has no robot with a ~(~a~); one is named in the ~
+                               robot's entry by ~a."
+                       scene part
+                       (ecase part
+                         (:head "(:head pan-joint tilt-joint)")
+                         (:camera "(:camera link)"))))))
+  (:documentation "Signaled when a robot is to do what it has no part for."))

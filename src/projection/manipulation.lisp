@@ -16,23 +16,7 @@
 (defun move-arm (projection lift shoulder extension)
   "Move the arm of PROJECTION's robot to the joint positions LIFT (m), SHOULDER (rad) and EXTENSION
 (m), all at once."
-  (let* ((robot (projection-robot projection))
-         (scene (projection-scene projection))
-         (roles '(:lift :shoulder :extension))
-         (goals (list lift shoulder extension))
-         (starts (loop for role in roles collect (joint-position robot role)))
-         (positions (joint-positions robot))
-         (numbers (loop for role in roles collect (frame-number robot role))))
-    (call-along-profile (lambda (fraction)
-                          (loop for number in numbers for start in starts for goal in goals
-                                do (setf (aref positions number)
-                                         (interpolate start goal fraction)))
-                          (step-projection projection)
-                          nil)
-                        (reduce #'max (mapcar (lambda (start goal) (abs (- goal start)))
-                                              starts goals))
-                        (scene-parameter scene :joint-speed)
-                        (scene-parameter scene :joint-acceleration))))
+  (move-joints projection '(:lift :shoulder :extension) (list lift shoulder extension)))
 
 (defun upper-extent (shape pose)
   "Return how far (m) the top of SHAPE, at POSE, is above the position of POSE, however it lies."
@@ -95,13 +79,13 @@ there, and take the arm back."
 
 (defun designated-item (projection designator)
   "Return the name of the item that the object designator DESIGNATOR means, by :name or :type."
-  (let ((name (and designator
-                   (or (plan:desig-prop-value designator :name)
-                       (plan:desig-prop-value designator :type)))))
-    (if (and name (assoc name (projection-items projection)))
-        name
-        (plan:fail 'plan:perception-object-not-found
-                   :description (format nil "there is no ~(~a~)" (or name "object"))))))
+  (or (first (designated-items projection designator))
+      (plan:fail 'plan:perception-object-not-found
+                 :object designator
+                 :description (format nil "there is no ~(~a~)"
+                                      (or (plan:desig-prop-value designator :name)
+                                          (plan:desig-prop-value designator :type)
+                                          "object")))))
 
 (defmethod execute-designator ((projection projection) (class (eql :action))
                                (type (eql :picking-up)) designator)

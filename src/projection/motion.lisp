@@ -1,7 +1,8 @@
 ;;;; Motion profiles: how far something has got after a time.
 ;;;;
 ;;;; A move of a given length runs at a trapezoidal velocity profile: constant acceleration up to a
-;;;; speed, constant speed, constant deceleration; a short move never reaches the speed.
+;;;; speed, constant speed, constant deceleration; a short move never reaches the speed.  MOVE-JOINTS
+;;;; moves several joints so, all at once.
 
 (in-package #:discrepancy-finder.projection)
 
@@ -43,3 +44,27 @@ it returns true or the move is done.  Return what it returned last."
                                  (profile-fraction (* step (float +time-step+ 1d0))
                                                    length speed acceleration))
                 thereis (funcall function fraction)))))
+
+(defun step-projection (projection)
+  "Move the robot's links to where its joints are now, and the world by a step."
+  (update-links (projection-robot projection))
+  (bullet:step-world (projection-world projection)))
+
+(defun move-joints (projection roles goals)
+  "Move the joints with ROLES of PROJECTION's robot to GOALS (m or rad), all at once: the one that
+has the longest way sets the profile."
+  (let* ((robot (projection-robot projection))
+         (scene (projection-scene projection))
+         (starts (loop for role in roles collect (joint-position robot role)))
+         (positions (joint-positions robot))
+         (numbers (loop for role in roles collect (frame-number robot role))))
+    (call-along-profile (lambda (fraction)
+                          (loop for number in numbers for start in starts for goal in goals
+                                do (setf (aref positions number)
+                                         (interpolate start goal fraction)))
+                          (step-projection projection)
+                          nil)
+                        (reduce #'max (mapcar (lambda (start goal) (abs (- goal start)))
+                                              starts goals))
+                        (scene-parameter scene :joint-speed)
+                        (scene-parameter scene :joint-acceleration))))

@@ -9,10 +9,6 @@
 (defconstant +contact-interval+ 12
   "Contact with fixtures is looked for every so many steps: 5 cm at 1 m/s.")
 
-(defun step-projection (projection)
-  (update-links (projection-robot projection))
-  (bullet:step-world (projection-world projection)))
-
 (defun drive-base (projection goal)
   "Drive the robot of PROJECTION straight to the pose GOAL, of which x, y and yaw count.  Signals
 NAVIGATION-GOAL-NOT-REACHED where a link touches a fixture; the base stops there."

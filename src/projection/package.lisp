@@ -9,16 +9,16 @@
    ;; scenes
    #:load-scene #:scene #:scene-name #:scene-file #:scene-files #:scene-parameters #:scene-parameter
    #:scene-with-parameters #:normalized-parameters #:scene-body-pose #:check-movable
-   #:scene-item-names
+   #:scene-item-names #:scene-item-type
    #:scene-robot-name
    ;; URDF
    #:read-urdf #:urdf-model #:urdf-model-name #:urdf-link #:urdf-joint
    ;; projections
    #:projection #:make-projection #:close-projection #:with-projection #:projection-world
    #:projection-scene #:observed-pose #:held-item #:settle #:interpenetration #:state-hash
-   #:simulated-seconds
+   #:simulated-seconds #:visible-part
    ;; process modules
-   #:execute-designator #:executes-p #:drive-base #:move-arm
+   #:execute-designator #:executes-p #:drive-base #:move-arm #:move-head
    ;; conditions
    #:projection-error #:scene-error #:scene-error-file #:scene-error-reason #:urdf-error
-   #:unknown-parameter #:impossible-parameter #:unknown-body))
+   #:unknown-parameter #:impossible-parameter #:unknown-body #:missing-robot-part))

@@ -2,8 +2,9 @@
 ;;;;
 ;;;; MAKE-PROJECTION builds a world anew for every sample, so that the same sample gives the same
 ;;;; bits.  A projection is an executive: performing a designator calls EXECUTE-DESIGNATOR, which
-;;;; the process modules of navigation.lisp and manipulation.lisp implement.  What the abstraction
-;;;; wants to know of the outcome it asks through OBSERVED-POSE and HELD-ITEM.
+;;;; the process modules of navigation.lisp, head.lisp, perception.lisp and manipulation.lisp
+;;;; implement.  What the abstraction wants to know of the outcome it asks through OBSERVED-POSE and
+;;;; HELD-ITEM.
 
 (in-package #:discrepancy-finder.projection)
 
@@ -80,6 +81,18 @@ UNKNOWN-BODY."
           ((assoc name (projection-items projection))
            (bullet:body-pose (cdr (assoc name (projection-items projection)))))
           (t (error 'unknown-body :name name :scene (scene-name scene))))))
+
+(defun designated-items (projection designator)
+  "Return the names of the items that fit the :type and the :name of the object designator
+DESIGNATOR, in the order of the scene; none if it has neither."
+  (let ((type (plan:desig-prop-value designator :type))
+        (name (plan:desig-prop-value designator :name)))
+    (and (or type name)
+         (loop for (item) in (projection-items projection)
+               when (and (or (null name) (eq name item))
+                         (or (null type)
+                             (eq type (scene-item-type (projection-scene projection) item))))
+                 collect item))))
 
 (defun held-item (projection)
   "Return the name (a keyword) of the item that the robot holds in PROJECTION, or NIL."
@@ -172,5 +185,6 @@ execution fails, DESIGNATOR-NOT-UNDERSTOOD if it cannot be interpreted.")
                                (plan:desig-prop-value designator :type) designator))))))
 
 (defun misunderstood (designator reason)
+  "Signal that DESIGNATOR is not understood for REASON, a format control without arguments."
   (error 'plan:designator-not-understood :designator designator :executive "The projection"
-                                         :reason reason))
+                                         :reason (format nil reason)))

@@ -98,7 +98,7 @@ BODY is its body in the world, NIL if it has no shape."
                  (robot-frames robot))))
 
 (defun find-joint (robot role)
-  "Return the joint that has ROLE (:lift, :shoulder or :extension) in ROBOT."
+  "Return the joint that has ROLE (:lift, :shoulder, :extension, :pan or :tilt) in ROBOT."
   (link-frame-joint (svref (robot-frames robot) (frame-number robot role))))
 
 (defun joint-position (robot role)
@@ -108,6 +108,10 @@ BODY is its body in the world, NIL if it has no shape."
 (defun gripper-pose (robot)
   "Return the pose of the tip of ROBOT's gripper."
   (svref (update-poses robot) (frame-number robot :gripper)))
+
+(defun camera-pose (robot)
+  "Return the pose of ROBOT's camera, which looks along its x axis."
+  (svref (update-poses robot) (frame-number robot :camera)))
 
 ;;; Bodies
 

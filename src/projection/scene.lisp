@@ -4,19 +4,28 @@
 ;;;;   (define-scene NAME [documentation]
 ;;;;     (:parameters (NAME value [documentation])*)
 ;;;;     (:fixture NAME "file.urdf" (:at x y z [yaw]))     what never moves
-;;;;     (:item NAME "file.urdf" (:at x y z [yaw]))        a rigid body; its name is also its type
+;;;;     (:item NAME "file.urdf" (:at x y z [yaw]) [(:type TYPE)])
+;;;;                                      a rigid body; without :type its name is also its type
 ;;;;     (:robot NAME "file.urdf" (:at x y z [yaw]) (:lift JOINT) (:shoulder JOINT)
-;;;;             (:extension JOINT) (:gripper LINK)))
+;;;;             (:extension JOINT) (:gripper LINK)
+;;;;             [(:camera LINK)]           looks along the x axis of its link, with z upwards
+;;;;             [(:head JOINT JOINT)]))    pan and tilt, which turn the camera
 ;;;; File names are relative to the scene's file.  LOAD-SCENE reads it.
+;;;;
+;;;; What a robot with a camera sees depends on four parameters: camera-range (m),
+;;;; camera-field-of-view and camera-vertical-field-of-view (rad, from side to side), and
+;;;; visible-fraction, the part of an item's surface that must be seen, 0 to 1.
 
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (scene-part (:copier nil))
-  "A model of a scene: KIND is :fixture, :item or :robot; ROLES names joints and links of a robot."
+  "A model of a scene: KIND is :fixture, :item or :robot; TYPE is that of an item, ROLES names joints
+and links of a robot."
   (name nil :type keyword :read-only t)
   (kind :item :type keyword :read-only t)
   (model nil :type urdf-model :read-only t)
   (pose nil :type pose :read-only t)
+  (type nil :type (or null keyword) :read-only t)
   (roles '() :type list :read-only t))
 
 (defstruct (scene (:copier nil))
@@ -49,6 +58,17 @@ UNKNOWN-PARAMETER."
         (error 'unknown-parameter :name name :scene (scene-name scene)
                                   :known (mapcar #'first (scene-parameters scene))))))
 
+(defparameter *parameter-limits*
+  `((:camera-field-of-view . ,pi) (:camera-vertical-field-of-view . ,pi) (:visible-fraction . 1))
+  "The largest values of parameters that have one.")
+
+(defun parameter-limit (name)
+  (cdr (assoc (source:name-keyword name) *parameter-limits*)))
+
+(defun possible-value-p (name value)
+  "Return true if VALUE can be that of the parameter NAME, a symbol."
+  (and (realp value) (< 0 value 1000000000) (<= value (or (parameter-limit name) value))))
+
 (defun check-parameters (scene values)
   "Signal UNKNOWN-PARAMETER or IMPOSSIBLE-PARAMETER unless VALUES is a property list of SCENE's
 parameters and positive reals."
@@ -59,8 +79,9 @@ parameters and positive reals."
              (error 'unknown-parameter :name name :scene (scene-name scene)
                                        :known (mapcar #'first (scene-parameters scene))))
            (scene-parameter scene name)
-           (unless (and (realp value) (< 0 value 1000000000))
-             (error 'impossible-parameter :name name :value value))))
+           (unless (possible-value-p name value)
+             (error 'impossible-parameter :name name :value value
+                                          :limit (parameter-limit name)))))
 
 (defun normalized-parameters (scene values)
   "Return VALUES, a property list of scene parameters and reals, with keywords and double floats.
@@ -100,6 +121,11 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
   "Return the list of the names (keywords) of SCENE's items."
   (mapcar #'scene-part-name (parts-of-kind scene :item)))
 
+(defun scene-item-type (scene name)
+  "Return the type (a keyword) of the item NAME, a symbol, of SCENE.  Signals UNKNOWN-BODY."
+  (check-movable scene name)
+  (scene-part-type (scene-part scene name)))
+
 (defun scene-robot (scene)
   (first (parts-of-kind scene :robot)))
 
@@ -122,10 +148,12 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
                         :line (and position (source:source-position-line position))
                         :reason (apply #'format nil control arguments))))
 
+(defun find-option (clause name)
+  (find name (cdddr clause) :key (lambda (option) (and (consp option) (first option)))))
+
 (defun option-value (clause name file)
   "Return the arguments of the option NAME of CLAUSE."
-  (let ((option (find name (cdddr clause)
-                      :key (lambda (option) (and (consp option) (first option))))))
+  (let ((option (find-option clause name)))
     (unless option
       (scene-problem file clause "~(~s~) ~(~a~) needs an option (~(~s~) ...)"
                      (first clause) (second clause) name))
@@ -144,22 +172,56 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
   (let ((joint (find name (urdf-model-joints model) :key #'urdf-joint-name :test #'equal))
         (link (find name (urdf-model-links model) :key #'urdf-link-name :test #'equal)))
     (ecase role
+      (:camera (unless link "no such link"))
       (:gripper (cond ((null link) "no such link")
                       ((null (urdf-link-shape link)) "a link without a shape")))
-      ((:lift :extension :shoulder)
-       (let ((types (if (eq role :shoulder) '(:revolute :continuous) '(:prismatic))))
+      ((:lift :extension :shoulder :pan :tilt)
+       (let ((types (if (member role '(:lift :extension)) '(:prismatic) '(:revolute :continuous))))
          (cond ((null joint) "no such joint")
                ((not (member (urdf-joint-type joint) types))
                 (format nil "a joint that is not ~(~a~)" (first types)))))))))
 
+(defun joint-turns-p (model joint-name link-name)
+  "Return true if the joint JOINT-NAME of MODEL is on the way from the root to the link LINK-NAME."
+  (let ((joint (find link-name (urdf-model-joints model)
+                     :key #'urdf-joint-child :test #'string=)))
+    (and joint
+         (or (string= (urdf-joint-name joint) joint-name)
+             (joint-turns-p model joint-name (urdf-joint-parent joint))))))
+
+(defun head-roles (clause model file)
+  "Return the roles of the head and the camera that the robot's CLAUSE names, a property list."
+  (let ((head (find-option clause :head)) (camera (find-option clause :camera)))
+    (when (and head (not (and camera (= (length head) 3))))
+      (scene-problem file clause "(:head pan-joint tilt-joint) with a (:camera link) was expected"))
+    (append (and camera (list :camera (second camera)))
+            (loop for role in '(:pan :tilt)
+                  for name in (rest head)
+                  do (when (and (null (role-problem role name model))
+                                (null (role-problem :camera (second camera) model))
+                                (not (joint-turns-p model name (second camera))))
+                       (scene-problem file clause "the joint ~s of the head does not turn the ~
+                                                   camera ~s" name (second camera)))
+                  collect role collect name))))
+
 (defun robot-roles (clause model file)
-  (loop for role in '(:lift :shoulder :extension :gripper)
-        for name = (first (option-value clause role file))
-        for problem = (role-problem role name model)
-        do (when problem
-             (scene-problem file clause "~(~s~) ~s: ~a has ~a" role name (urdf-model-file model)
-                            problem))
-        collect role collect name))
+  (let ((roles (append (loop for role in '(:lift :shoulder :extension :gripper)
+                             collect role collect (first (option-value clause role file)))
+                       (head-roles clause model file))))
+    (loop for (role name) on roles by #'cddr
+          for problem = (role-problem role name model)
+          do (when problem
+               (scene-problem file clause "~(~s~) ~s: ~a has ~a" role name (urdf-model-file model)
+                              problem)))
+    roles))
+
+(defun item-type (clause file)
+  "Return the type that the item's CLAUSE gives, or else its name."
+  (let ((option (find-option clause :type)))
+    (unless (or (null option) (and (= (length option) 2) (second option)
+                                   (symbolp (second option))))
+      (scene-problem file clause "(:type name) was expected in :item ~(~a~)" (second clause)))
+    (source:name-keyword (second (or option clause)))))
 
 (defun parse-part (clause file)
   (destructuring-bind (kind &optional name model-file &rest options) clause
@@ -175,13 +237,15 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
                        name))
       (make-scene-part :name (source:name-keyword name) :kind kind :model model
                        :pose (clause-pose clause file)
+                       :type (and (eq kind :item) (item-type clause file))
                        :roles (and (eq kind :robot) (robot-roles clause model file))))))
 
 (defun parse-parameter (entry file)
   (unless (and (consp entry) (null (cdr (last entry))) (symbolp (first entry))
-               (realp (second entry)) (plusp (second entry)))
+               (possible-value-p (first entry) (second entry)))
     (scene-problem file entry "(name positive-number [documentation]) was expected in ~
-                               :parameters"))
+                               :parameters~@[, and a number of at most ~,4f~]"
+                   (and (consp entry) (symbolp (first entry)) (parameter-limit (first entry)))))
   (list* (source:name-keyword (first entry)) (decimal-double (second entry)) (cddr entry)))
 
 (defun parse-scene (form file)
@@ -208,6 +272,11 @@ Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
           (scene-problem file form "two parameters have the same name")))
       (unless (<= (count :robot parts :key #'scene-part-kind) 1)
         (scene-problem file form "there can be one robot only"))
+      (when (some (lambda (part) (getf (scene-part-roles part) :camera)) parts)
+        (dolist (name '(:camera-range :camera-field-of-view :camera-vertical-field-of-view
+                        :visible-fraction))
+          (unless (assoc name parameters)
+            (scene-problem file form "a robot with a camera needs the parameter ~(~a~)" name))))
       (make-scene :name (source:name-keyword name) :documentation documentation
                   :file (source:native-name file)
                   :parts (nreverse parts) :parameters parameters))))

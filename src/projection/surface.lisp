@@ -1,0 +1,81 @@
+;;;; Surfaces: points spread evenly over a shape.
+;;;;
+;;;; The surface of a primitive is made of PATCHES: images of the unit square on which equal areas
+;;;; have equal images.  A patch gets its share of the points by area, at the places of a Fibonacci
+;;;; lattice, which is even for every number of points and has none on an edge.
+
+(in-package #:discrepancy-finder.projection)
+
+(defparameter *golden-ratio* (/ (1+ (sqrt 5d0)) 2))
+
+(defun box-patches (x y z)
+  (flet ((faces (width height depth point)
+           (loop for side in '(1 -1)
+                 collect (let ((outwards (* side depth 1/2)))
+                           (cons (* width height)
+                                 (lambda (u v)
+                                   (funcall point (* width (- u 1/2)) (* height (- v 1/2))
+                                            outwards)))))))
+    (append (faces x y z (lambda (a b c) (make-pose a b c)))
+            (faces y z x (lambda (a b c) (make-pose c a b)))
+            (faces z x y (lambda (a b c) (make-pose b c a))))))
+
+(defun cylinder-patches (radius height)
+  (flet ((cap (side)
+           (cons (* pi radius radius)
+                 (lambda (u v)
+                   (let ((r (* radius (sqrt u))) (angle (* 2 pi v)))
+                     (make-pose (* r (cos angle)) (* r (sin angle)) (* side height 1/2)))))))
+    (list (cons (* 2 pi radius height)
+                (lambda (u v)
+                  (let ((angle (* 2 pi v)))
+                    (make-pose (* radius (cos angle)) (* radius (sin angle))
+                               (* height (- u 1/2))))))
+          (cap 1) (cap -1))))
+
+(defun sphere-patches (radius)
+  (list (cons (* 4 pi radius radius)
+              (lambda (u v)
+                (let* ((z (- (* 2 u) 1)) (r (sqrt (- 1 (* z z)))) (angle (* 2 pi v)))
+                  (make-pose (* radius r (cos angle)) (* radius r (sin angle)) (* radius z)))))))
+
+(defun compound-patches (parts)
+  (loop for (pose part) in parts
+        append (loop for (area . point) in (shape-patches part)
+                     collect (let ((pose pose) (point point))
+                               (cons area
+                                     (lambda (u v) (compose pose (funcall point u v))))))))
+
+(defun shape-patches (shape)
+  "Return the patches of SHAPE, in the notation of the bullet layer: a list of (area . function), the
+area in m^2, the function one of two numbers from 0 to 1 that returns a pose at the point."
+  (ecase (first shape)
+    (:box (apply #'box-patches (rest shape)))
+    (:cylinder (apply #'cylinder-patches (rest shape)))
+    (:sphere (apply #'sphere-patches (rest shape)))
+    (:compound (compound-patches (rest shape)))))
+
+(defun inside-shape-p (shape point)
+  "Return true if the position of the pose POINT is inside of SHAPE by more than a micrometre."
+  (let ((x (abs (pose-x point))) (y (abs (pose-y point))) (z (abs (pose-z point))) (gap 1d-6))
+    (ecase (first shape)
+      (:box (every (lambda (coordinate size) (< coordinate (- (/ size 2) gap)))
+                   (list x y z) (rest shape)))
+      (:sphere (< (sqrt (+ (* x x) (* y y) (* z z))) (- (second shape) gap)))
+      (:cylinder (and (< (sqrt (+ (* x x) (* y y))) (- (second shape) gap))
+                      (< z (- (/ (third shape) 2) gap))))
+      (:compound (loop for (pose part) in (rest shape)
+                         thereis (inside-shape-p part (compose (inverse pose) point)))))))
+
+(defun surface-points (shape count)
+  "Return about COUNT points, poses in the frame of SHAPE, spread evenly over its surface; always the
+same ones.  Where parts of a compound overlap what is inside of another part is left out."
+  (let* ((patches (shape-patches shape))
+         (area (reduce #'+ patches :key #'car)))
+    (remove-if (lambda (point) (inside-shape-p shape point))
+               (loop for (patch-area . point) in patches
+                     for number = (max 1 (round (* count (/ patch-area area))))
+                     append (loop for i below number
+                                  for u = (/ (+ i 1/2) number 1d0)
+                                  for v = (nth-value 1 (floor (* (+ i 1/2) *golden-ratio*)))
+                                  collect (funcall point u v))))))
