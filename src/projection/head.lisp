@@ -120,8 +120,8 @@ is what the plan named.  Signals PTU-GOAL-UNREACHABLE and PTU-GOAL-NOT-REACHED."
           (plan:fail 'plan:ptu-goal-not-reached
                      :target place
                      :description
-                     (format nil "the camera looks ~,3f rad past the target with ~a at ~,3f rad and ~
-                                  ~a at ~,3f rad"
+                     (format nil "the camera looks ~,3f rad past the target with ~a at ~,3f rad ~
+                                  and ~a at ~,3f rad"
                              miss
                              (urdf-joint-name (find-joint robot :pan)) (joint-position robot :pan)
                              (urdf-joint-name (find-joint robot :tilt))
@@ -149,6 +149,6 @@ forbids it."
          (target (plan:designated-pose place)))
     (cond (target (look-at projection target place))
           ((eq (plan:desig-prop-value designator :direction) :forward) (look-forward projection))
-          (t (misunderstood designator "a motion of type looking needs a target with a pose, a pose ~
-                                        or the direction forward")))
+          (t (misunderstood designator "a motion of type looking needs a pose, a target with a ~
+                                        pose, or the direction forward")))
     (camera-pose (projection-robot projection))))

@@ -1,8 +1,8 @@
 ;;;; Motion profiles: how far something has got after a time.
 ;;;;
 ;;;; A move of a given length runs at a trapezoidal velocity profile: constant acceleration up to a
-;;;; speed, constant speed, constant deceleration; a short move never reaches the speed.  MOVE-JOINTS
-;;;; moves several joints so, all at once.
+;;;; speed, constant speed, constant deceleration; a short move never reaches the speed.
+;;;; MOVE-JOINTS moves several joints so, all at once.
 
 (in-package #:discrepancy-finder.projection)
 

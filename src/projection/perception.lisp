@@ -51,8 +51,8 @@ robot sees.  Signals UNKNOWN-BODY, and MISSING-ROBOT-PART if there is no camera.
        (float (length points) 1d0))))
 
 (defun detected-object (projection designator name)
-  "Return a new object designator: the description of DESIGNATOR with type, name and pose of the item
-NAME, which is what it was sought for."
+  "Return a new object designator: the description of DESIGNATOR, by which the item NAME was sought,
+with the item's type, name and pose."
   (plan:make-designator
    :object
    `((:type ,(scene-item-type (projection-scene projection) name))
@@ -66,8 +66,8 @@ NAME, which is what it was sought for."
   (plan:fail 'plan:perception-object-not-found
              :object designator
              :description
-             (format nil "~a is not seen: ~:[there is no such item~;~:*~{~a~^, ~}, where ~,1f % are ~
-                          needed~]"
+             (format nil "~a is not seen: ~:[there is no such item~;~:*~{~a~^, ~}, where ~,1f % ~
+                          are needed~]"
                      designator
                      (loop for (name . part) in seen
                            collect (format nil "~,1f % of ~(~a~)" (* 100 part) name))

@@ -19,8 +19,8 @@
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (scene-part (:copier nil))
-  "A model of a scene: KIND is :fixture, :item or :robot; TYPE is that of an item, ROLES names joints
-and links of a robot."
+  "A model of a scene: KIND is :fixture, :item or :robot; TYPE is that of an item, ROLES names
+joints and links of a robot."
   (name nil :type keyword :read-only t)
   (kind :item :type keyword :read-only t)
   (model nil :type urdf-model :read-only t)

@@ -47,8 +47,8 @@
                                      (lambda (u v) (compose pose (funcall point u v))))))))
 
 (defun shape-patches (shape)
-  "Return the patches of SHAPE, in the notation of the bullet layer: a list of (area . function), the
-area in m^2, the function one of two numbers from 0 to 1 that returns a pose at the point."
+  "Return the patches of SHAPE, in the notation of the bullet layer: a list of (area . function),
+the area in m^2, the function one of two numbers from 0 to 1 that returns a pose at the point."
   (ecase (first shape)
     (:box (apply #'box-patches (rest shape)))
     (:cylinder (apply #'cylinder-patches (rest shape)))
@@ -68,8 +68,8 @@ area in m^2, the function one of two numbers from 0 to 1 that returns a pose at 
                          thereis (inside-shape-p part (compose (inverse pose) point)))))))
 
 (defun surface-points (shape count)
-  "Return about COUNT points, poses in the frame of SHAPE, spread evenly over its surface; always the
-same ones.  Where parts of a compound overlap what is inside of another part is left out."
+  "Return about COUNT points, poses in the frame of SHAPE, spread evenly over its surface; always
+the same ones.  Where parts of a compound overlap what is inside of another part is left out."
   (let* ((patches (shape-patches shape))
          (area (reduce #'+ patches :key #'car)))
     (remove-if (lambda (point) (inside-shape-p shape point))
