@@ -97,7 +97,8 @@
       (looks-past 0.4 0.4 2.5)
       (is (nearly -0.6d0 (second (head-position projection)) 1d-12))
       (looks-past 0.4 -2 1.2)
-      (is (nearly 2.8d0 (abs (first (head-position projection))) 1d-12) "it cannot look over its shoulder"))
+      (is (nearly 2.8d0 (abs (first (head-position projection))) 1d-12)
+          "it cannot look over its shoulder"))
     (perform-in projection (looking-at 0.4 0.8 0.8))
     (is (< (pointing-error projection 0.4 0.8 0.8) 1d-9) "and the head still moves")))
 
@@ -300,7 +301,7 @@
     (is (< (projection:visible-part projection :cereal) 0.1) "it stands under the table")
     (is-false (detected-p projection :cereal))))
 
-(test the-robot-does-not-stand-in-its-own-light
+(test the-links-of-the-robot-hide-nothing
   (with-table (projection)
     (projection:settle projection)
     (perform-in projection (apply #'looking-at *in-front*))

@@ -105,13 +105,17 @@ far as the joints' limits let it.  Signals MISSING-ROBOT-PART if it has none."
 
 (defun pointing-error (robot target)
   "Return the angle (rad) between the axis of ROBOT's camera and the way from it to the position of
-TARGET."
-  (let ((local (compose (inverse (camera-pose robot)) target)))
-    (atan (sqrt (+ (expt (pose-y local) 2) (expt (pose-z local) 2))) (pose-x local))))
+TARGET; pi if the camera is there."
+  (let* ((local (compose (inverse (camera-pose robot)) target))
+         (ahead (pose-x local))
+         (aside (sqrt (+ (expt (pose-y local) 2) (expt (pose-z local) 2)))))
+    (if (< (+ (abs ahead) aside) 1d-9)
+        pi
+        (atan aside ahead))))
 
 (defun look-at (projection target place)
   "Point the camera of PROJECTION's robot at the position of TARGET, as far as the head can.  PLACE
-is what the plan named.  Signals PTU-GOAL-UNREACHABLE and PTU-GOAL-NOT-REACHED."
+is what the plan named.  Signals PTU-GOAL-NOT-REACHED, after the move, if it is looked past."
   (let ((robot (projection-robot projection)))
     (destructuring-bind (pan tilt) (head-angles robot target)
       (move-head projection pan tilt)

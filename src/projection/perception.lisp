@@ -2,24 +2,26 @@
 ;;;;
 ;;;; An item is seen as far as rays from the camera to points on its surface get there: the point is
 ;;;; within the field of view and the range, and the first thing that the ray meets is the item.
-;;;; The far side of an item counts as seen where its near side is.  The robot does not stand in its
-;;;; own light.  What is detected is where it is: there is no noise.
+;;;; The far side of an item counts as seen where its near side is.  The robot's own links hide
+;;;; nothing.  What is detected is where it is: there is no noise.
 
 (in-package #:discrepancy-finder.projection)
 
 (defparameter *points-on-a-surface* 240
   "An item is looked at in about so many points.")
 
-(defun in-view-p (scene point)
-  "Return true if POINT, a pose in the frame of the camera, is within its field of view and range by
-the parameters of SCENE."
-  (let ((x (pose-x point)) (y (pose-y point)) (z (pose-z point)))
-    (flet ((within-p (offset view)
-             (<= (abs (atan offset x)) (/ (scene-parameter scene view) 2))))
-      (and (> x 1d-6)
-           (<= (sqrt (+ (* x x) (* y y) (* z z))) (scene-parameter scene :camera-range))
-           (within-p y :camera-field-of-view)
-           (within-p z :camera-vertical-field-of-view)))))
+(defun view-test (scene)
+  "Return a function that returns true if a point, a pose in the frame of the camera, is within its
+field of view and range by the parameters of SCENE."
+  (let ((range (scene-parameter scene :camera-range))
+        (across (/ (scene-parameter scene :camera-field-of-view) 2))
+        (upwards (/ (scene-parameter scene :camera-vertical-field-of-view) 2)))
+    (lambda (point)
+      (let ((x (pose-x point)) (y (pose-y point)) (z (pose-z point)))
+        (and (> x 1d-6)
+             (<= (sqrt (+ (* x x) (* y y) (* z z))) range)
+             (<= (abs (atan y x)) across)
+             (<= (abs (atan z x)) upwards))))))
 
 (defun rays-to (points camera)
   "Return the rays from the position of CAMERA to those of POINTS, for BULLET:CAST-RAYS."
@@ -42,8 +44,8 @@ robot sees.  Signals UNKNOWN-BODY, and MISSING-ROBOT-PART if there is no camera.
          (points (loop for point in (surface-points (bullet:body-shape body)
                                                     *points-on-a-surface*)
                        collect (compose pose point)))
-         (in-view (remove-if-not (lambda (point) (in-view-p scene (compose outside point)))
-                                 points))
+         (in-view (remove-if-not (view-test scene) points
+                                 :key (lambda (point) (compose outside point))))
          (met (bullet:cast-rays (projection-world projection) (rays-to in-view camera)
                                 :passed (link-bodies robot))))
     ;; A ray may end a last bit before the surface and meet nothing.

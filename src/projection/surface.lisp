@@ -8,6 +8,10 @@
 
 (defparameter *golden-ratio* (/ (1+ (sqrt 5d0)) 2))
 
+(defun point-pose (x y z)
+  "Return the upright pose at X, Y, Z (m): MAKE-POSE without its angles, which cost time."
+  (quaternion-pose (float x 1d0) (float y 1d0) (float z 1d0) 0d0 0d0 0d0 1d0))
+
 (defun box-patches (x y z)
   (flet ((faces (width height depth point)
            (loop for side in '(1 -1)
@@ -16,20 +20,20 @@
                                  (lambda (u v)
                                    (funcall point (* width (- u 1/2)) (* height (- v 1/2))
                                             outwards)))))))
-    (append (faces x y z (lambda (a b c) (make-pose a b c)))
-            (faces y z x (lambda (a b c) (make-pose c a b)))
-            (faces z x y (lambda (a b c) (make-pose b c a))))))
+    (append (faces x y z (lambda (a b c) (point-pose a b c)))
+            (faces y z x (lambda (a b c) (point-pose c a b)))
+            (faces z x y (lambda (a b c) (point-pose b c a))))))
 
 (defun cylinder-patches (radius height)
   (flet ((cap (side)
            (cons (* pi radius radius)
                  (lambda (u v)
                    (let ((r (* radius (sqrt u))) (angle (* 2 pi v)))
-                     (make-pose (* r (cos angle)) (* r (sin angle)) (* side height 1/2)))))))
+                     (point-pose (* r (cos angle)) (* r (sin angle)) (* side height 1/2)))))))
     (list (cons (* 2 pi radius height)
                 (lambda (u v)
                   (let ((angle (* 2 pi v)))
-                    (make-pose (* radius (cos angle)) (* radius (sin angle))
+                    (point-pose (* radius (cos angle)) (* radius (sin angle))
                                (* height (- u 1/2))))))
           (cap 1) (cap -1))))
 
@@ -37,7 +41,7 @@
   (list (cons (* 4 pi radius radius)
               (lambda (u v)
                 (let* ((z (- (* 2 u) 1)) (r (sqrt (- 1 (* z z)))) (angle (* 2 pi v)))
-                  (make-pose (* radius r (cos angle)) (* radius r (sin angle)) (* radius z)))))))
+                  (point-pose (* radius r (cos angle)) (* radius r (sin angle)) (* radius z)))))))
 
 (defun compound-patches (parts)
   (loop for (pose part) in parts
