@@ -221,7 +221,7 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "evaluator") (:file "exploration")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
-               (:file "projection") (:file "perception")
+               (:file "projection") (:file "head") (:file "perception")
                (:module "discrepancy"
                 :serial t
                 :components ((:file "random") (:file "quantile") (:file "least-squares")
