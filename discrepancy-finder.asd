@@ -208,14 +208,25 @@ The environment variable CXX names another compiler than g++."))
                (:file "results") (:file "search") (:file "report") (:file "replay")
                (:file "replay-file")))
 
+(asdf:defsystem "discrepancy-finder/cram-compat"
+  :description "CRAM's global packages, for its plan files, where CRAM itself is absent."
+  :depends-on ("discrepancy-finder/plan-language" "discrepancy-finder/transforms"
+               "discrepancy-finder/roslisp")
+  :pathname "src/cram-compat/"
+  :serial t
+  :components ((:file "package")))
+
 (asdf:defsystem "discrepancy-finder/tests"
   :description "The test suites, one a layer or subject."
-  :depends-on ("discrepancy-finder" "fiveam")
+  :depends-on ("discrepancy-finder" "discrepancy-finder/cram-compat" "fiveam")
   :pathname "tests/"
   :serial t
   :components ((:file "package") (:file "run") (:file "fixtures")
                (:file "geometry") (:file "source") (:file "json") (:file "z3") (:file "z3-life")
-               (:file "event-calculus") (:file "plan-language")
+               (:file "event-calculus")
+               (:file "prolog") (:file "designators") (:file "designators-resolved")
+               (:file "transforms") (:file "stamped-poses") (:file "roslisp")
+               (:file "plan-language")
                (:module "symbolic-execution"
                 :serial t
                 :components ((:file "evaluator") (:file "exploration")))

@@ -21,7 +21,7 @@
     (member ?arm (:left :right)))
   (prolog:<- (desig:location-grounding ?designator ?pose)
     (desig:desig-prop ?designator (:test-index ?index))
-    (lisp-fun indexed-poses ?index ?poses)
+    (prolog:lisp-fun indexed-poses ?index ?poses)
     (member ?pose ?poses)))
 
 (defun indexed-poses (index)
@@ -34,14 +34,14 @@
 
 (test actions-and-motions-are-grounded
   (let* ((?object (desig:an object (type cup)))
-         (?seen (desig:make-effective-designator ?object))
+         (seen (desig:make-effective-designator ?object))
          (action (desig:an action (type test-picking-up) (object ?object)))
          (first (desig:reference action)))
-    (is (equal (list 'pick-up ?seen :left) first))
+    (is (equal (list 'pick-up seen :left) first))
     (is (eq first (desig:reference action)) "the first solution is not kept")
     (is-true (desig:effective action))
     (let ((next (desig:next-solution action)))
-      (is (equal (list 'pick-up ?seen :right) (desig:reference next)))
+      (is (equal (list 'pick-up seen :right) (desig:reference next)))
       (is (equal (desig:properties action) (desig:properties next)))
       (is (eq next (desig:next-solution action)) "the next solution is not kept")
       (is (eq next (desig:current-desig action)))
@@ -142,10 +142,11 @@ x coordinates to verdicts."
      (desig:delete-location-validation-function 'validation-2)))
 
 (test poses-in-the-description-come-first
-  (let* ((?pose (geometry:make-pose 1 2 3))
+  (let* ((pose (geometry:make-pose 1 2 3))
+         (?pose pose)
          (?more (list (geometry:make-pose 7 0 0) (geometry:make-pose 8 0 0)))
          (location (desig:a location (pose ?pose) (poses ?more) (test-index 4))))
-    (is (eq ?pose (desig:reference location)))
+    (is (eq pose (desig:reference location)))
     (is (equal '(1 7 8 4 5 6) (xs-of location)))))
 
 (test generators-are-asked-by-priority-and-lazily
@@ -192,11 +193,9 @@ x coordinates to verdicts."
                  (:maybe-reject :accept t) (:maybe-reject :unknown nil)
                  (:maybe-reject :maybe-reject nil) (:maybe-reject :reject nil)
                  (:reject :accept nil) (nil :accept nil) (:accept :other nil))
-          do (let* ((?first first)
-                    (?second second)
-                    (designator (desig:make-designator
-                                 :location `((:test-1 ,(or ?first :nothing))
-                                             (:test-2 ,?second)))))
+          do (let ((designator (desig:make-designator
+                                :location `((:test-1 ,(or first :nothing))
+                                            (:test-2 ,second)))))
                (is (eq valid (and (desig:validate-location-designator-solution
                                    designator (geometry:make-pose 1 0 0))
                                   t))
@@ -233,24 +232,23 @@ x coordinates to verdicts."
 ;;; Poses
 
 (test designated-poses
-  (let* ((?pose (geometry:make-pose 1 2 3)))
-    (flet ((pose-of (thing) (desig:designated-pose thing)))
-      (is (eq ?pose (pose-of ?pose)))
-      (is (eq ?pose (pose-of (desig:a location (pose ?pose)))))
-      (is (eq ?pose (pose-of (desig:a location (pose (a location (pose ?pose)))))))
-      (is (eq ?pose (pose-of (desig:an object (pose ((pose ?pose) (transform nil)))))))
-      (is (eq ?pose (pose-of `((:transform nil) (:pose ,?pose)))))
-      (is (= 4 (geometry:pose-x (pose-of (desig:a location (test-index 4))))))
-      (let ((?object (desig:make-effective-designator
-                      (desig:an object (type cup))
-                      :data-object (make-instance 'desig:object-designator-data :pose ?pose))))
-        (is (eq ?pose (pose-of ?object))))
-      (is (null (pose-of (desig:a location (in kitchen)))))
-      (is (null (pose-of (desig:an object (type cup)))))
-      (is (null (pose-of (desig:a motion (pose ?pose)))))
-      (is (null (pose-of nil)))
-      (is (null (pose-of '(:left :right))))
-      (is (null (pose-of '((:pose . 1) . 2)))))))
+  (let* ((pose (geometry:make-pose 1 2 3))
+         (?pose pose)
+         (?object (desig:make-effective-designator
+                   (desig:an object (type cup))
+                   :data-object (make-instance 'desig:object-designator-data :pose pose))))
+    (dolist (thing (list pose
+                         (desig:a location (pose ?pose))
+                         (desig:a location (pose (a location (pose ?pose))))
+                         (desig:an object (pose ((pose ?pose) (transform nil))))
+                         `((:transform nil) (:pose ,pose))
+                         ?object))
+      (is (eq pose (desig:designated-pose thing))))
+    (is (= 4 (geometry:pose-x (desig:designated-pose (desig:a location (test-index 4))))))
+    (dolist (thing (list (desig:a location (in kitchen)) (desig:an object (type cup))
+                         (desig:a motion (pose ?pose)) nil '(:left :right)
+                         '((:pose . 1) . 2) '((:pose)) "pose"))
+      (is (null (desig:designated-pose thing))))))
 
 ;;; Predicates
 
@@ -261,7 +259,8 @@ x coordinates to verdicts."
 
 (test designators-in-prolog
   (let* ((object (desig:an object (type cup) (side left) (side right)))
-         (?pose (geometry:make-pose 1 2 3))
+         (pose (geometry:make-pose 1 2 3))
+         (?pose pose)
          (location (desig:a location (pose ?pose)))
          (younger (desig:equate object (desig:an object (type mug)))))
     (is (equal '(:left :right) (proved `(desig:desig-prop ,object (:side ?x)))))
@@ -274,12 +273,12 @@ x coordinates to verdicts."
     (is (= 1 (length (proved `(prolog:== ,object ,object)))))
     (is-true (nth-value 1 (prolog:unify object younger)))
     (is-false (nth-value 1 (prolog:unify object (desig:an object (type cup)))))
-    (is (equal (list ?pose) (proved `(desig:desig-location-prop ,location ?x))))
-    (is (equal (list ?pose) (proved `(desig:desig-reference ,location ?x))))
+    (is (equal (list pose) (proved `(desig:desig-location-prop ,location ?x))))
+    (is (equal (list pose) (proved `(desig:desig-reference ,location ?x))))
     (is (null (proved `(desig:desig-reference ,object ?x))))
-    (is (equal (list ?pose) (proved `(desig:desig-solution ,location ?x))))
+    (is (equal (list pose) (proved `(desig:desig-solution ,location ?x))))
     (is (null (proved `(desig:designator-groundings ,(desig:a location (in cellar)) ?x))))
-    (is (= 1 (length (proved `(desig:desig-solution-not-rejected ,location ,?pose)))))
+    (is (= 1 (length (proved `(desig:desig-solution-not-rejected ,location ,pose)))))
     (let ((made (first (proved '(desig:designator :object ((:type :cup)) ?x)))))
       (is (equal '((:type :cup)) (desig:properties made)))
       (is (eq :object (desig:designator-class-keyword made))))
@@ -293,13 +292,13 @@ x coordinates to verdicts."
                         (length (proved `(,predicate ,designator))))))))))
 
 (defun property-values (designator key)
-  (handler-bind ((warning #'muffle-warning))
-    (proved `(desig:property ,designator (,key ?x)))))
+  (proved `(desig:property ,designator (,key ?x))))
 
 (test types-of-properties
   (let* ((?pose (geometry:make-pose 1 2 3))
          (?place (desig:a location (pose ?pose)))
-         (?cup (desig:an object (type cup))))
+         (?cup (desig:an object (type cup)))
+         (prolog:*break-on-lisp-errors* t))
     (loop for (class key good bad)
             in `((:motion :target ,?place 1) (:motion :left-target ,?place ,?pose)
                  (:motion :right-target ,?place nil) (:motion :object ,?cup :cup)
@@ -324,7 +323,10 @@ x coordinates to verdicts."
                (is (equal (list good) (property-values designator key))
                    "~a of ~a" key designator))
              (let ((designator (desig:make-designator class `((,key ,bad)))))
-               (is (null (property-values designator key)) "~a of ~a" key designator))))
+               (signals desig:property-type-error (property-values designator key))
+               (let ((prolog:*break-on-lisp-errors* nil))
+                 (is (equal (list bad) (property-values designator key))
+                     "~a of ~a without a check" key designator)))))
   (is (equal '("anything") (property-values (desig:a motion (mood "anything")) :mood)))
   (is (equal '((move-gripper :left))
              (list (desig:reference (desig:a motion (type test-opening) (gripper left))))))

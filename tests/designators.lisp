@@ -7,7 +7,7 @@
 
 (defparameter *bound-special* 'left "A special variable with a value when the tests are expanded.")
 
-(defun warnings-of (form)
+(defun key-warnings-of (form)
   "Return the list of the conditions of which the expansion of FORM warns."
   (let ((warnings '()))
     (handler-bind ((desig:unknown-designator-key
@@ -115,7 +115,7 @@
       (with-file (bad "(desig:a motion (type going))
                        (macroexpand-1 '(desig:a motion type))")
         (source:load-source bad :package '#:discrepancy-finder.tests)))
-    (let ((warning (first (warnings-of (first (source:read-source
+    (let ((warning (first (key-warnings-of (first (source:read-source
                                                file :package '#:discrepancy-finder.tests))))))
       (is (search ":3: In " (princ-to-string warning)))
       (is (search "did you mean :target?" (princ-to-string warning))))))
@@ -124,7 +124,7 @@
 
 (test unknown-keys-like-known-ones-are-warned-of
   (flet ((suggestions (form)
-           (mapcar #'desig:unknown-designator-key-suggestion (warnings-of form))))
+           (mapcar #'desig:unknown-designator-key-suggestion (key-warnings-of form))))
     (is (equal '(:target) (suggestions '(desig:a motion (type going) (trget 1)))))
     (is (equal '(:target) (suggestions '(desig:a motion (type going) (tagret 1)))))
     (is (equal '(:left-poses :right-poses)
@@ -139,18 +139,18 @@
     (is (null (suggestions '(desig:a location (weight 1)))))
     (is (null (suggestions '(desig:a motion (type going) (target 1) (object 2))))))
   (let ((form '(desig:a motion (trget 2))))
-    (is (= 1 (length (warnings-of form))))
-    (is (null (warnings-of form)) "the same form is warned of twice"))
+    (is (= 1 (length (key-warnings-of form))))
+    (is (null (key-warnings-of form)) "the same form is warned of twice"))
   (is (subtypep 'desig:unknown-designator-key 'style-warning)))
 
 (test declared-keys-are-known
   (is (member :target (desig:known-keys :motion)))
   (is (not (member :targett (desig:known-keys :motion))))
-  (is (= 1 (length (warnings-of '(desig:a motion (targett 1))))))
+  (is (= 1 (length (key-warnings-of '(desig:a motion (targett 1))))))
   (eval '(desig:declare-designator-keys motion targett :other-key-of-test))
   (is (subsetp '(:targett :other-key-of-test :target) (desig:known-keys 'desig:motion)))
-  (is (null (warnings-of '(desig:a motion (targett 2)))))
-  (is (= 1 (length (warnings-of '(desig:an action (targett 3))))))
+  (is (null (key-warnings-of '(desig:a motion (targett 2)))))
+  (is (= 1 (length (key-warnings-of '(desig:an action (targett 3))))))
   (signals desig:malformed-designator (desig:known-keys :thing))
   (setf (gethash :motion discrepancy-finder.designators::*known-keys*)
         (set-difference (desig:known-keys :motion) '(:targett :other-key-of-test))))

@@ -127,8 +127,9 @@
       (is (eq pose (plan:designated-pose location))))))
 
 (test malformed-designators
-  (signals-with (plan:malformed-plan-form "after the article") (macroexpand-1 '(plan:a thing)))
-  (signals-with (plan:malformed-plan-form "(key value)")
+  (signals-with (desig:malformed-designator "after the article")
+    (macroexpand-1 '(plan:a thing)))
+  (signals-with (desig:malformed-designator "(key value)")
     (macroexpand-1 '(plan:a motion type))))
 
 ;;; Plans and performing
@@ -166,8 +167,8 @@
                                 (reverse (performed recorder))))
           "the compiled plan knows where its performs are"))))
 
-(test performing-needs-an-executive
-  (signals plan:no-executive (plan:perform (plan:a motion (type going)))))
+(test performing-needs-a-top-level
+  (signals plan:not-in-top-level (plan:perform (plan:a motion (type going)))))
 
 (test top-levels-are-not-nested
   (is (equal '(1 2) (multiple-value-list (plan:top-level (values 1 2)))))

@@ -7,7 +7,8 @@
   (projection:scene-with-parameters (discrepancy:domain-scene (two-regions)) parameters))
 
 (defun perform-in (projection designator)
-  (plan:with-executive (projection) (plan:perform designator)))
+  (plan:with-executive (projection)
+    (plan:top-level (plan:perform designator))))
 
 (defun going-to (x &optional (y 0) (yaw 0))
   (let ((?pose (geometry:make-pose x y 0 :yaw yaw)))

@@ -79,5 +79,5 @@ not registered, or is registered with a priority that is no number."))
                      (property-type-error-designator condition)
                      (property-type-error-expected condition)
                      (description-text (property-type-error-value condition)))))
-  (:documentation "Signaled by the predicate PROPERTY for a value of the wrong type, while
-prolog's *BREAK-ON-LISP-ERRORS* is true."))
+  (:documentation "Signaled by the predicate PROPERTY for a value of a wrong type while prolog's
+*BREAK-ON-LISP-ERRORS* is true."))

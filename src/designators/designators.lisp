@@ -21,7 +21,7 @@
    (timestamp :initform nil :reader timestamp
               :documentation "When that was first, by *TIMESTAMP-FUNCTION*, or NIL.")
    (data :initform nil :initarg :data :accessor data
-         :documentation "What the designator describes: a solution, or what perception saw; or NIL.")
+         :documentation "What the designator describes, a solution or what perception saw; or NIL.")
    (solutions :initform nil
               :documentation "The lazy list of the solutions from DATA on; private."))
   (:documentation "A description by properties, resolved when it is used."))

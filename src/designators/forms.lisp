@@ -10,7 +10,7 @@
 ;;;;                        function can be called there;
 ;;;;   anything else        is itself.
 ;;;; Of properties, (when test property*) stands for PROPERTY* if TEST, which is evaluated, is true,
-;;;; else for none; NIL stands for none.  Symbols are compared by name, whatever package they are in.
+;;;; else for none; NIL stands for none.  Symbols are compared by name, whatever their package.
 
 (in-package #:discrepancy-finder.designators)
 
@@ -53,8 +53,8 @@
   (and (symbolp (first property)) (string= (first property) "WHEN")))
 
 (defun property-forms (property class form)
-  "Return the list of the forms that evaluate to the properties for which PROPERTY, of the designator
-FORM of CLASS, stands unconditionally."
+  "Return the list of the forms that evaluate to the properties for which PROPERTY, of the
+designator FORM of CLASS, stands unconditionally."
   (cond ((null property) '())
         ((not (and (alexandria:proper-list-p property) (symbolp (first property))
                    (first property)))
@@ -101,9 +101,10 @@ property*), stands."
 
 (defmacro a (&whole form &optional type &body properties)
   "Return a new designator of TYPE (action, motion, location, object or human, unevaluated) with
-PROPERTIES, a list of (key value*) or (when test (key value*)).  In a value a symbol is a keyword, ?x
-a variable, a bound special variable its value, (an object ...) a designator, any other list a list.
-Signals MALFORMED-DESIGNATOR and warns with UNKNOWN-DESIGNATOR-KEY when it is expanded."
+PROPERTIES, a list of (key value*) or (when test (key value*)).  In a value, ?x is a variable, a
+special variable that is bound its value, another symbol a keyword, (an object ...) a designator,
+any other list a list.  Signals MALFORMED-DESIGNATOR and warns with UNKNOWN-DESIGNATOR-KEY when it
+is expanded."
   (declare (ignore type properties))
   (designator-form :a form))
 

@@ -1,5 +1,5 @@
-;;;; The solutions of location designators, lazily: what the generators of locations.lisp propose and
-;;;; the validation functions accept.
+;;;; The solutions of location designators, lazily: what the generators of locations.lisp propose
+;;;; and the validation functions accept.
 
 (in-package #:discrepancy-finder.designators)
 
@@ -29,8 +29,8 @@ returns :accept."
 ;;; Generation
 
 (defun proposed-poses (designator)
-  "Return the lazy list of what the enabled generators propose for DESIGNATOR.  A generator is called
-when those before it have no further pose."
+  "Return the lazy list of what the enabled generators propose for DESIGNATOR.  A generator is
+called when those before it have no further pose."
   (lazy-mapcan (lambda (generator) (funcall (location-function-function generator) designator))
                (remove-if-not #'location-function-enabled *location-generators*)))
 

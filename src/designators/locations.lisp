@@ -1,8 +1,8 @@
 ;;;; Poses for location designators: generators propose, validation functions judge.
 ;;;;
-;;;; A generator is called with a location designator and returns a list or lazy list of poses.  Those
-;;;; of all generators are tried one after the other, generators with a small priority first.  A
-;;;; validation function is called with the designator and a pose and returns a verdict:
+;;;; A generator is called with a location designator and returns a list or lazy list of poses.
+;;;; Those of all generators are tried one after the other, generators with a small priority first.
+;;;; A validation function is called with the designator and a pose and returns a verdict:
 ;;;;   :accept         the pose is good
 ;;;;   :unknown        it cannot tell
 ;;;;   :maybe-reject   the pose is bad unless another function accepts it
@@ -72,9 +72,9 @@ that have no greater priority."
                                              :problem "is not the name of a function"))))
 
 (defmacro register-location-generator (priority function &optional documentation)
-  "Register FUNCTION, the unevaluated name of a function from a location designator to a list or lazy
-list of poses, as a generator with PRIORITY, a number; generators with smaller ones are asked first.
-DOCUMENTATION is a string.  Return the name.  Signals INVALID-LOCATION-FUNCTION."
+  "Register FUNCTION, the unevaluated name of a function from a location designator to a list or
+lazy list of poses, as a generator with PRIORITY, a number; generators with smaller ones are asked
+first.  DOCUMENTATION is a string.  Return the name.  Signals INVALID-LOCATION-FUNCTION."
   (let ((name (function-name function)))
     `(add-location-generator ',name ,priority ',name ,documentation)))
 
@@ -138,6 +138,6 @@ order in which they are asked."
   (listed *location-generators*))
 
 (defun list-location-validation-functions ()
-  "Return a list of (priority name :enabled-or-:disabled documentation) for the validation functions,
-in the order in which they are asked."
+  "Return a list of (priority name :enabled-or-:disabled documentation) for the validation
+functions, in the order in which they are asked."
   (listed *location-validation-functions*))

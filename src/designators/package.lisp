@@ -1,12 +1,12 @@
 (defpackage #:discrepancy-finder.designators
-  (:documentation "Designators of CRAM: symbolic descriptions of actions, motions, locations, objects
-and humans, and how they are resolved.")
+  (:documentation "Designators of CRAM: symbolic descriptions of actions, motions, locations,
+objects and humans, and how they are resolved.")
   (:use #:cl #:discrepancy-finder.geometry)
   (:shadow #:the)
   (:import-from #:discrepancy-finder.prolog
                 #:lazy-list #:lazy-cons #:next #:fin #:lazy-car #:lazy-cdr #:lazy-mapcar
                 #:lazy-mapcan #:lazy-filter
-                #:prolog #:var-value #:unify-p
+                #:prolog #:var-value #:unify-p #:*break-on-lisp-errors* #:predicate
                 #:def-fact-group #:<- #:lisp-fun #:lisp-pred #:lisp-type #:bound)
   (:local-nicknames (#:source #:discrepancy-finder.source))
   (:export

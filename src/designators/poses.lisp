@@ -11,7 +11,8 @@
   (:documentation "Return the pose that THING means, or NIL if it means none: a pose itself; of a
 location designator the value of :pose or, without one, what REFERENCE returns; of an object
 designator the value of :pose or, without one, the pose of its data; of a list of properties such as
-((:pose pose) (:transform transform)) the value of :pose.  Other layers add methods for their poses.")
+((:pose pose) (:transform transform)) the value of :pose.  Other layers add methods for their
+poses.")
   (:method (thing) (declare (ignore thing)) nil)
   (:method ((thing pose)) thing)
   (:method ((thing location-designator))

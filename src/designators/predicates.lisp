@@ -42,7 +42,7 @@
 
   (<- (property ?designator (?key ?value))
     (desig-prop ?designator (?key ?value))
-    (lisp-pred property-of-type-p ?designator ?key ?value))
+    (lisp-pred check-property-type ?designator ?key ?value))
 
   ;; The pose that a location or an object bears in its description.
   (<- (desig-location-prop ?designator ?pose)
@@ -83,3 +83,39 @@
     (loc-desig? ?designator)
     (bound ?solution)
     (lisp-pred validate-location-designator-solution ?designator ?solution)))
+
+(macrolet ((document (&rest entries)
+             `(progn
+                ,@(loop for (name text) on entries by #'cddr
+                        collect `(setf (documentation ',name 'predicate) ,text)))))
+  (document
+   action-grounding "(action-grounding designator solution): the action DESIGNATOR means SOLUTION,
+the list of a function and its arguments.  Fact groups add to it."
+   motion-grounding "(motion-grounding designator solution): the motion DESIGNATOR means SOLUTION,
+the list of a command and its arguments.  Fact groups add to it."
+   location-grounding "(location-grounding designator pose): POSE is a place that the location
+DESIGNATOR describes.  Fact groups add to it."
+   desig-prop "(desig-prop designator property): DESIGNATOR has PROPERTY, (key value)."
+   property "(property designator (key value)): like DESIG-PROP; signals PROPERTY-TYPE-ERROR for a
+value of a wrong type while *BREAK-ON-LISP-ERRORS* is true."
+   desig-location-prop "(desig-location-prop designator pose): the description of DESIGNATOR, a
+location or an object, has POSE as its :pose.  Fact groups add to it."
+   current-designator "(current-designator designator current): CURRENT is the youngest designator
+in the chain of DESIGNATOR."
+   designator-groundings "(designator-groundings designator solutions): SOLUTIONS is the lazy list
+of the solutions of DESIGNATOR, of which there is one."
+   desig-solution "(desig-solution designator solution): SOLUTION is one of the solutions of
+DESIGNATOR."
+   desig-reference "(desig-reference designator solution): SOLUTION is what REFERENCE returns for
+DESIGNATOR."
+   desig-solution-not-rejected "(desig-solution-not-rejected designator pose): the validation
+functions accept POSE for the location DESIGNATOR."
+   designator "(designator class description designator): DESIGNATOR is a new one of CLASS with
+DESCRIPTION."
+   desig-equal "(desig-equal first second): the two designators are in one chain."
+   designator? "(designator? object): OBJECT is a designator."
+   action-desig? "(action-desig? object): OBJECT is an action designator."
+   motion-desig? "(motion-desig? object): OBJECT is a motion designator."
+   loc-desig? "(loc-desig? object): OBJECT is a location designator."
+   obj-desig? "(obj-desig? object): OBJECT is an object designator."
+   human-desig? "(human-desig? object): OBJECT is a human designator."))

@@ -1,6 +1,7 @@
 ;;;; The types that the values of properties have.
 ;;;;
-;;;; The predicate PROPERTY (predicates.lisp) is DESIG-PROP with these types checked.
+;;;; The predicate PROPERTY (predicates.lisp) is DESIG-PROP with these types checked, if prolog's
+;;;; *BREAK-ON-LISP-ERRORS* is true; if it is false, it is DESIG-PROP, as in CRAM.
 
 (in-package #:discrepancy-finder.designators)
 
@@ -46,11 +47,13 @@ if they are free."
     (list (listp value))
     (symbol (symbolp value))))
 
-(defun property-of-type-p (designator key value)
-  "Return true if VALUE is of the type that values of KEY of DESIGNATOR have; signal
-PROPERTY-TYPE-ERROR if it is not."
-  (let ((types (property-types (designator-class-keyword designator) key)))
-    (or (null types)
-        (some (lambda (type) (value-of-type-p value type)) types)
+(defun check-property-type (designator key value)
+  "Return true.  While prolog's *BREAK-ON-LISP-ERRORS* is true, signal PROPERTY-TYPE-ERROR if VALUE
+is not of a type that values of KEY of DESIGNATOR have."
+  (when *break-on-lisp-errors*
+    (let ((types (property-types (designator-class-keyword designator) key)))
+      (unless (or (null types)
+                  (some (lambda (type) (value-of-type-p value type)) types))
         (error 'property-type-error :designator designator :key key :value value
                                     :expected types))))
+  t)

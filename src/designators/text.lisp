@@ -6,8 +6,8 @@
 (in-package #:discrepancy-finder.designators)
 
 (defgeneric description-text (value)
-  (:documentation "Return the text of VALUE, a designator or a value in one, in lower case and on one
-line.  Other layers add methods for their poses.")
+  (:documentation "Return the text of VALUE, a designator or a value in one, in lower case and on
+one line.  Other layers add methods for their poses.")
   (:method (value) (princ-to-string value))
   (:method ((value symbol)) (string-downcase value))
   (:method ((value cons))
@@ -62,7 +62,10 @@ packages, strings in quotes."
 (defmethod print-object ((designator designator) stream)
   (let ((*print-pretty* nil))
     (cond ((not (slot-boundp designator 'description)) (call-next-method))
-          (*print-escape* (write-string "#<" stream)
-                          (write-inside designator stream)
-                          (write-char #\> stream))
+          (*print-escape*
+           (write-string (with-output-to-string (text)
+                           (write-string "#<" text)
+                           (write-inside designator text)
+                           (write-char #\> text))
+                         stream))
           (t (write-string (description-text designator) stream)))))

@@ -118,16 +118,15 @@ the class of an unhandled failure."
       (cond ((not (same-step-p step expected)) (leave-run monitor :left-trace))
             ((null (monitor-expected monitor)) (leave-run monitor :trace-done))))))
 
-(defun record-step (monitor designator position failure)
-  "Record that DESIGNATOR was performed and ended in FAILURE, a condition, or NIL."
-  (let ((outcomes (symbolic:action-outcomes (monitor-domain monitor) designator)))
-    (note-step monitor
-               (make-run-step :designator designator :position position
-                              :outcome (if failure (type-of failure) :success)
-                              :candidates (fitting-outcomes outcomes failure)
-                              :failure (and failure (source:condition-sentence failure))
-                              :state (discrete-state (monitor-domain monitor)
-                                                     (monitor-projection monitor))))))
+(defun record-step (monitor designator position outcomes failure)
+  "Record that DESIGNATOR, which may have OUTCOMES, was performed and ended in FAILURE or NIL."
+  (note-step monitor
+             (make-run-step :designator designator :position position
+                            :outcome (if failure (type-of failure) :success)
+                            :candidates (fitting-outcomes outcomes failure)
+                            :failure (and failure (source:condition-sentence failure))
+                            :state (discrete-state (monitor-domain monitor)
+                                                   (monitor-projection monitor)))))
 
 (defun call-watched (monitor function)
   "Call FUNCTION, which is no business of the plan, on the thread of the top-level."
@@ -145,15 +144,17 @@ NIL, and the result."
   (let* ((projection (monitor-projection monitor))
          (native (or (projection:executes-p projection designator)
                      (not (plan:plan-known-p designator)))))
-    (handler-case
-        (values nil
-                (if native
-                    (call-watched monitor
-                                  (lambda ()
-                                    (plan:perform-with projection designator position)))
-                    (plan:with-executive (projection)
-                      (plan:perform-by-reference designator))))
-      (plan:plan-failure (failure) failure))))
+    (flet ((attempt (function)
+             (handler-case (values nil (funcall function))
+               (plan:plan-failure (failure) failure))))
+      (if native
+          (call-watched monitor
+                        (lambda ()
+                          (attempt (lambda ()
+                                     (plan:perform-with projection designator position)))))
+          (attempt (lambda ()
+                     (plan:with-executive (projection)
+                       (plan:perform-by-reference designator))))))))
 
 (defmethod plan:executive-clock ((monitor monitor))
   (plan:executive-clock (monitor-projection monitor)))
@@ -164,11 +165,17 @@ NIL, and the result."
         ((symbolic:entered-p (monitor-domain monitor) designator) (call-next-method))
         ((>= (length (monitor-steps monitor)) *step-limit*) (leave-run monitor :too-many-steps))
         (t
-         (multiple-value-bind (failure result) (perform-concretely monitor designator position)
-           (call-watched monitor (lambda () (record-step monitor designator position failure)))
-           (if failure
-               (plan:fail failure)
-               result)))))
+         (let ((outcomes (call-watched monitor
+                                       (lambda ()
+                                         (symbolic:action-outcomes (monitor-domain monitor)
+                                                                   designator)))))
+           (multiple-value-bind (failure result) (perform-concretely monitor designator position)
+             (call-watched monitor
+                           (lambda ()
+                             (record-step monitor designator position outcomes failure)))
+             (if failure
+                 (plan:fail failure)
+                 result))))))
 
 (defun sample-validity (projection trace state)
   "Return :VALID if the settled PROJECTION with the discrete STATE is an initial state of TRACE, or

@@ -95,7 +95,7 @@ anything else is signaled by ERROR."
     (on-fail failure)
     (when (and *break-on-plan-failures* (typep failure *break-on-plan-failures*))
       (break "~a" failure))
-    (cond ((and *current-task* (typep failure 'plan-failure))
+    (cond ((and *current-task* (not *machinery*) (typep failure 'plan-failure))
            (signal failure)
            (fail-task *current-task* failure))
           (t (error failure)))))

@@ -50,7 +50,8 @@ handles.  All else is for OUTER-HOOK."
         (with-simple-restart (rethrow "End the task with this failure.")
           (let ((sb-ext:*invoke-debugger-hook* outer-hook))
             (invoke-debugger condition))))
-      (fail-task *current-task* (envelope condition)))
+      (setf (task-broken *current-task*) (envelope condition))
+      (fail-task *current-task* (task-broken *current-task*)))
     (when outer-hook
       (funcall outer-hook condition hook))))
 
@@ -101,6 +102,9 @@ pass the tasks first."
                     (check-events strand)
                     (setf (task-result task) (multiple-value-list (funcall function)))
                     (check-escape task)
+                    (when (task-broken task)
+                      ;; A cleanup form has left in another way than the error was going to.
+                      (fail-task task (task-broken task)))
                     :succeeded))))
       (setf (strand-task strand) outer)
       (unless (or outcome (null parent) (being-left-p parent))

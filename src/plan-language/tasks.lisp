@@ -14,7 +14,7 @@
 (defstruct (task (:constructor %make-task) (:copier nil))
   "A task.  RESULT is a list of values or a failure; CHILDREN are those with strands of their own;
 DEPTH is that of the binding stack when the body began.  EVAPORATION is :REQUESTED, then :UNDER-WAY;
-ESCAPED is a child that was left by a jump."
+BROKEN is the error that it ends with, in its envelope; ESCAPED is a child that was left by a jump."
   (name nil :read-only t)
   (parent nil :type (or null task))
   (scheduler nil :read-only t)
@@ -30,6 +30,7 @@ ESCAPED is a child that was left by a jump."
   (evaporation nil)
   (suspended nil)
   (suspension-handlers '() :type list)
+  (broken nil)
   (escaped nil))
 
 (defmethod print-object ((task task) stream)

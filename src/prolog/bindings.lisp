@@ -82,8 +82,8 @@ their places; the parts of what EXPAND returns are expanded, too."
     (nreverse variables)))
 
 (defun rename-vars (form)
-  "Return FORM with a new variable for each of its variables, and the alist (variable . new variable).
-Each ?_ stays as it is."
+  "Return FORM with a new variable for each of its variables, and the alist (variable . new
+variable). Each ?_ stays as it is."
   (let ((renaming (loop for variable in (vars-in form)
                         collect (cons variable (gen-var variable)))))
     (values (sublis renaming form) renaming)))
@@ -93,8 +93,8 @@ Each ?_ stays as it is."
   (acons variable value bindings))
 
 (defun binding-of (form bindings)
-  "Return the value of FORM in BINDINGS as it is written there, or FORM itself if it is no variable or
-has none."
+  "Return the value of FORM in BINDINGS as it is written there, or FORM itself if it is no variable
+or has none."
   (loop
     (let ((binding (and (is-var form) (assoc form bindings :test #'eq))))
       (if (or (null binding) (eq (cdr binding) form))
@@ -102,15 +102,15 @@ has none."
           (setf form (cdr binding))))))
 
 (defun substitute-vars (form bindings)
-  "Return FORM with the values that BINDINGS have for its variables in their places; variables without
-a value stay.  FORM itself is returned if it has no variables."
+  "Return FORM with the values that BINDINGS have for its variables in their places; variables
+without a value stay.  FORM itself is returned if it has no variables."
   (if (some-leaf #'is-var form)
       (copy-form (lambda (node) (binding-of node bindings)) form)
       form))
 
 (defun var-value (variable bindings)
-  "Return the value of VARIABLE in BINDINGS, with the values of variables in it; VARIABLE itself if it
-has none.  A form that is no variable is treated as SUBSTITUTE-VARS does."
+  "Return the value of VARIABLE in BINDINGS, with the values of variables in it; VARIABLE itself if
+it has none.  A form that is no variable is treated as SUBSTITUTE-VARS does."
   (substitute-vars variable bindings))
 
 (defun is-bound (form bindings)
@@ -137,6 +137,6 @@ BINDINGS; one that has none is bound to its own name."
   (binding-let variables bindings 'var-value body))
 
 (defmacro with-vars-strictly-bound ((&rest variables) bindings &body body)
-  "Evaluate BODY as WITH-VARS-BOUND does.  Signals VARIABLE-NOT-BOUND if one of VARIABLES has no value
-in BINDINGS."
+  "Evaluate BODY as WITH-VARS-BOUND does.  Signals VARIABLE-NOT-BOUND if one of VARIABLES has no
+value in BINDINGS."
   (binding-let variables bindings 'strict-value body))

@@ -30,7 +30,8 @@
                      (goal-text (malformed-fact-form condition))
                      (malformed-fact-group condition) (malformed-fact-group condition)
                      (malformed-fact-reason condition))))
-  (:documentation "Signaled when a form of DEF-FACT-GROUP is not (<- (predicate argument*) goal*)."))
+  (:documentation "Signaled when a form of DEF-FACT-GROUP is not (<- (predicate argument*)
+goal*)."))
 
 (define-condition malformed-goal (error)
   ((goal :initarg :goal :reader malformed-goal-goal
@@ -77,8 +78,8 @@ predicate, whose facts are never used."))
                      (predicate-not-extendable-predicate condition)
                      (predicate-not-extendable-other condition)
                      (predicate-not-extendable-other condition))))
-  (:documentation "Signaled as a warning when a second fact group defines a predicate that none lists
-as extendable.  The facts are added nevertheless, as in CRAM."))
+  (:documentation "Signaled as a warning when a second fact group defines a predicate that none
+lists as extendable.  The facts are added nevertheless, as in CRAM."))
 
 (define-condition lisp-error-in-goal (warning)
   ((goal :initarg :goal :reader lisp-error-in-goal-goal

@@ -78,16 +78,16 @@ cut and other facts of the predicate.  In a query it gives up all other solution
     (go-on proof goals before (then (commit-to before) next))))
 
 (define-control -> (proof barrier next) (condition goal &optional (else '(fail)))
-  "If the condition is true, the goal for its first solution; if not, the other goal, without which it
-is false."
+  "If the condition is true, the goal for its first solution; if not, the other goal, without which
+it is false."
   (let ((before (proof-choices proof)))
     (push-choice proof (make-frame (list else) nil barrier next))
     (go-on proof (list condition) (proof-choices proof)
            (then (commit-to before) (make-frame (list goal) nil barrier next)))))
 
 (define-control *-> (proof barrier next) (condition goal &optional (else '(fail)))
-  "If the condition is true, the goal for each of its solutions; if not, the other goal, without which
-it is false."
+  "If the condition is true, the goal for each of its solutions; if not, the other goal, without
+which it is false."
   (let ((found nil))
     (push-choice proof (then (lambda (proof) (declare (ignore proof)) (not found))
                              (make-frame (list else) nil barrier next)))
@@ -97,7 +97,8 @@ it is false."
 
 (define-control every (proof barrier next) (goals &optional (list nil predicate-p))
   "With one argument, all goals of the list are true; with two, (predicate* element) is true for all
-elements of the list, the first argument being a predicate or a goal to which CALL adds the element."
+elements of the list, the first argument being a predicate or a goal to which CALL adds the
+element."
   (flet ((elements (list)
            (loop for tail = (deref list) then (deref (cdr tail))
                  while (consp tail) collect (car tail))))
@@ -122,8 +123,8 @@ elements of the list, the first argument being a predicate or a goal to which CA
                    next)))))
 
 (defun collect-solutions (proof template goal function next)
-  "Collect a copy of TEMPLATE for each solution of GOAL, then call FUNCTION with the list; it returns
-whether to go on to NEXT."
+  "Collect a copy of TEMPLATE for each solution of GOAL, then call FUNCTION with the list; it
+returns whether to go on to NEXT."
   (let ((found '()))
     (push-choice proof (then (lambda (proof)
                                (declare (ignore proof))

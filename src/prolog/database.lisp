@@ -66,7 +66,8 @@ DEFAULT: which may fit a key that is not in TABLE."
   "The fact groups by name.")
 
 (defvar *predicates* (make-hash-table :test 'eq :synchronized t)
-  "The predicates by name.  A name has its predicate on its property list as well, which is faster.")
+  "The predicates by name.  A name has its predicate on its property list as well, which is
+faster.")
 
 (defvar *database-lock* (sb-thread:make-mutex :name "fact groups")
   "Held while a fact group is defined.")
@@ -104,8 +105,8 @@ DEFAULT: which may fit a key that is not in TABLE."
         (t (cons (make-template (car form) slots) (make-template (cdr form) slots)))))
 
 (defun term-key (term)
-  "Return an object by which the index finds clauses whose first argument may unify with TERM, or %ANY
-if all may.  Different keys never unify."
+  "Return an object by which the index finds clauses whose first argument may unify with TERM, or
+%ANY if all may.  Different keys never unify."
   (let ((target (deref term)))
     (typecase target
       (symbol target)

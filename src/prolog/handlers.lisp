@@ -36,9 +36,9 @@
                (or (null most) (= least most)) least most most)))
 
 (defmacro define-control (name (proof barrier next) (&rest lambda-list) documentation &body body)
-  "Define the built-in predicate NAME.  In BODY the arguments of the goal are bound by LAMBDA-LIST, and
-PROOF, BARRIER and NEXT to the proof, the choices to which a cut goes back, and the frame of the goals
-after this one.  BODY sets the frame and returns true, or it returns false: the goal fails."
+  "Define the built-in predicate NAME.  In BODY the arguments of the goal are bound by LAMBDA-LIST,
+and PROOF, BARRIER and NEXT to the proof, the choices to which a cut goes back, and the frame of the
+goals after this one.  BODY sets the frame and returns true, or it returns false: the goal fails."
   (let ((goal (gensym "GOAL")) (arguments (gensym "ARGUMENTS")))
     (multiple-value-bind (least most) (argument-numbers lambda-list)
       `(install-predicate
@@ -69,7 +69,8 @@ arguments of the goal are bound by LAMBDA-LIST and PROOF to the proof."
                        (unify-terms proof variable (internalise value names)))))))
 
 (defun try-solutions (proof solutions variables next)
-  "Go on to NEXT with the first binding set of the lazy list SOLUTIONS, with the others as a choice."
+  "Go on to NEXT with the first binding set of the lazy list SOLUTIONS, with the others as a
+choice."
   (let ((list (forced solutions)))
     (when list
       (let ((others (cdr list)))
@@ -89,11 +90,12 @@ arguments of the goal are bound by LAMBDA-LIST and PROOF to the proof."
       (try-solutions proof solutions variables next))))
 
 (defmacro def-prolog-handler (name (bindings &rest lambda-list) &body body)
-  "Define the predicate NAME in Lisp; it takes the place of the handler that NAME had.  For each goal
-BODY is evaluated with the arguments of the goal bound by LAMBDA-LIST and BINDINGS bound to a binding
-set.  It returns the lazy list of the binding sets, extensions of BINDINGS by ADD-BDS or UNIFY, that
-make the goal true.  The arguments have the values of their variables; a symbol for which IS-VAR is
-true stands for an unbound one.  A string in front of BODY is the documentation of NAME as a PREDICATE."
+  "Define the predicate NAME in Lisp; it takes the place of the handler that NAME had.  For each
+goal BODY is evaluated with the arguments of the goal bound by LAMBDA-LIST and BINDINGS bound to a
+binding set.  It returns the lazy list of the binding sets, extensions of BINDINGS by ADD-BDS or
+UNIFY, that make the goal true.  The arguments have the values of their variables; a symbol for
+which IS-VAR is true stands for an unbound one.  A string in front of BODY is the documentation of
+NAME as a PREDICATE."
   (let ((proof (gensym "PROOF")) (goal (gensym "GOAL")) (arguments (gensym "ARGUMENTS"))
         (barrier (gensym "BARRIER")) (next (gensym "NEXT"))
         (text (and (stringp (first body)) (rest body) (first body))))

@@ -16,8 +16,8 @@
     (write-string "..." stream)))
 
 (defun force (delayed)
-  "Return the lazy list that DELAYED stands for, computing it if that has not been done.  A non-local
-exit out of the computation leaves DELAYED as it is."
+  "Return the lazy list that DELAYED stands for, computing it if that has not been done.  A
+non-local exit out of the computation leaves DELAYED as it is."
   ;; The computation may return another delayed list: the loop spares the control stack.
   (let ((pending '())
         (list delayed))
@@ -74,8 +74,8 @@ or another lazy list.  A variable for which there is no new value keeps its valu
   (outside cont " value new-value*" "Inside LAZY-LIST, return the list that begins with the first of
 ARGUMENTS and goes on with the others as new values of the variables.  Anywhere else this is an
 error.")
-  (outside next " new-value*" "Inside LAZY-LIST, return the list that its body generates with ARGUMENTS
-as new values of the variables.  Anywhere else this is an error.")
+  (outside next " new-value*" "Inside LAZY-LIST, return the list that its body generates with
+ARGUMENTS as new values of the variables.  Anywhere else this is an error.")
   (outside fin "" "Inside LAZY-LIST, return the empty list.  Anywhere else this is an error."))
 
 (defun lazy-list-p (object)
@@ -87,8 +87,8 @@ as new values of the variables.  Anywhere else this is an error.")
   (car (forced list)))
 
 (defun lazy-cdr (list)
-  "Return the rest of the lazy LIST after its first element, which is NIL or a cons: its first element
-is computed by this."
+  "Return the rest of the lazy LIST after its first element, which is NIL or a cons: its first
+element is computed by this."
   (let ((cell (forced list)))
     (if (delayed-p (cdr cell))
         (setf (cdr cell) (force (cdr cell)))
@@ -111,8 +111,8 @@ is computed by this."
     start))
 
 (defmacro lazy-dolist ((variable list &optional result) &body body)
-  "Evaluate BODY, in a block named NIL, with VARIABLE bound to each element of the lazy LIST in turn;
-return the value of RESULT.  An element is computed after BODY is done with the one before."
+  "Evaluate BODY, in a block named NIL, with VARIABLE bound to each element of the lazy LIST in
+turn; return the value of RESULT.  An element is computed after BODY is done with the one before."
   (let ((rest (gensym "REST")))
     `(do ((,rest (forced ,list) (lazy-cdr ,rest)))
          ((null ,rest) ,result)

@@ -23,8 +23,8 @@ computed yet are computed when one of the two lists is asked for them."
     (if (plusp n) (take-more n (forced list)) '())))
 
 (defun lazy-mapcar (function list &rest more-lists)
-  "Return a lazy list of the values of FUNCTION for the elements of the lazy lists, until the shortest
-ends."
+  "Return a lazy list of the values of FUNCTION for the elements of the lazy lists, until the
+shortest ends."
   (labels ((walk (lists)
              (if (every #'identity lists)
                  (lazy-cons (apply function (mapcar #'car lists))
@@ -50,8 +50,8 @@ returns."
     (forced (walk lists))))
 
 (defun lazy-mapcan (function list &rest more-lists)
-  "Return a lazy list of the elements of the lazy lists that FUNCTION returns for the elements of the
-lazy lists, until the shortest ends."
+  "Return a lazy list of the elements of the lazy lists that FUNCTION returns for the elements of
+the lazy lists, until the shortest ends."
   ;; Empty results are skipped by way of NEXT, which spares the control stack.
   (lazy-list ((lists (mapcar #'forced (cons list more-lists))))
     (if (every #'identity lists)
@@ -69,8 +69,8 @@ that are no lists are kept."
   (lazy-mapcan (lambda (element) (if (funcall predicate element) (list element) '())) list))
 
 (defun lazy-fold (function initial-value list)
-  "Return what is left of INITIAL-VALUE after FUNCTION was called with it and the first element of the
-lazy LIST, then with the value and the second element, and so on.  All of LIST is computed."
+  "Return what is left of INITIAL-VALUE after FUNCTION was called with it and the first element of
+the lazy LIST, then with the value and the second element, and so on.  All of LIST is computed."
   (let ((value initial-value))
     (lazy-dolist (element list value)
       (setf value (funcall function value element)))))

@@ -44,8 +44,8 @@ error, of which is warned.  Symbols in the value that are in NAMES become variab
             t)))
 
 (defun apply-to-terms (name function arguments)
-  "Return the value of the Lisp function FUNCTION for the terms ARGUMENTS, and true; or NIL and NIL if
-an argument is unbound or there is an error.  NAME is the predicate for whose goal that is done."
+  "Return the value of the Lisp function FUNCTION for the terms ARGUMENTS, and true; or NIL and NIL
+if an argument is unbound or there is an error.  NAME is the predicate for whose goal that is done."
   (if (some (lambda (argument) (variable-p (variable-target argument))) arguments)
       (values nil nil)
       (multiple-value-bind (forms unbound) (externalise (cons function arguments))
@@ -57,8 +57,8 @@ an argument is unbound or there is an error.  NAME is the predicate for whose go
     (and returned (unify-terms proof result value))))
 
 (define-test lisp-fun (proof) (function argument-or-result &rest arguments-and-result)
-  "The result, the last argument, unifies with the first value of the Lisp function for the arguments
-before.  False if one of these is an unbound variable."
+  "The result, the last argument, unifies with the first value of the Lisp function for the
+arguments before.  False if one of these is an unbound variable."
   (let ((all (cons argument-or-result arguments-and-result)))
     (unify-value proof 'lisp-fun function (butlast all) (first (last all)))))
 
@@ -75,8 +75,8 @@ before.  False if one of these is an unbound variable."
   (values (apply-to-terms 'instance-of 'typep (list object type))))
 
 (define-test assert-type (proof) (object type &optional (context ""))
-  "True.  While *BREAK-ON-LISP-ERRORS* is true, an error is signaled if the object is not of the Lisp
-type; the context, a string, is part of its report."
+  "True.  While *BREAK-ON-LISP-ERRORS* is true, an error is signaled if the object is not of the
+Lisp type; the context, a string, is part of its report."
   (when *break-on-lisp-errors*
     (let ((object (externalise object)) (type (externalise type)))
       (unless (typep object type)

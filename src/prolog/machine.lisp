@@ -240,9 +240,9 @@
 
 (defun prolog (query &optional bindings)
   "Return the lazy list of the binding sets that make the goal QUERY true under BINDINGS, or NIL if
-there is none.  VAR-VALUE finds the value of a variable of QUERY in a binding set; a binding set of a
-query without variables is NIL.  The first solution is computed at once, each other one, with the side
-effects of its Lisp functions, when it is asked for.  Warns by UNKNOWN-PREDICATE and
+there is none.  VAR-VALUE finds the value of a variable of QUERY in a binding set; a binding set of
+a query without variables is NIL.  The first solution is computed at once, each other one, with the
+side effects of its Lisp functions, when it is asked for.  Warns by UNKNOWN-PREDICATE and
 LISP-ERROR-IN-GOAL; signals MALFORMED-GOAL."
   (let* ((names (make-names bindings))
          (proof (make-proof query)))

@@ -1,7 +1,7 @@
 ;;;; Terms: what is unified while a query is proved.
 ;;;;
-;;;; A term is a Lisp object in which LOGIC-VARIABLEs stand where a query or a fact has a symbol ?x.  A
-;;;; variable is bound by assignment; the trail of the PROOF says which bindings to undo.
+;;;; A term is a Lisp object in which LOGIC-VARIABLEs stand where a query or a fact has a symbol ?x.
+;;;;  A variable is bound by assignment; the trail of the PROOF says which bindings to undo.
 ;;;; INTERNALISE and EXTERNALISE go from symbols to variables and back.  UNIFY, at the end, is
 ;;;; unification as Lisp sees it.
 
@@ -20,7 +20,8 @@
 
 (defstruct (proof (:constructor make-proof (&optional query)) (:copier nil))
   "The proof of a query.  FRAME: the goals that are left.  CHOICES: what else to try.  TRAIL: the
-variables that were bound since.  TRAILING: whether bindings are undone although there is no choice."
+variables that were bound since.  TRAILING: whether bindings are undone although there is no
+choice."
   (query nil :read-only t)
   (frame nil)
   (choices nil)
@@ -78,9 +79,9 @@ are no cyclic terms."
 ;;; Unification
 
 (defgeneric unify-p (left right)
-  (:documentation "Return true if the objects LEFT and RIGHT, instances of classes or structures that
-are not the same, unify.  Unification asks methods of other layers in this way, in the order of the
-two terms; the default is false.  A method returns: it leaves by no error and no other exit.")
+  (:documentation "Return true if the objects LEFT and RIGHT, instances of classes or structures
+that are not the same, unify.  Unification asks methods of other layers in this way, in the order of
+the two terms; the default is false.  A method returns: it leaves by no error and no other exit.")
   (:method (left right) (declare (ignore left right)) nil))
 
 (defun not-a-number-p (number)
