@@ -108,8 +108,8 @@ The environment variable CXX names another compiler than g++."))
   :description "Files of Lisp forms, read with care and with positions."
   :pathname "src/source/"
   :serial t
-  :components ((:file "package") (:file "conditions") (:file "names") (:file "destructuring")
-               (:file "read")))
+  :components ((:file "package") (:file "conditions") (:file "names") (:file "definitions")
+               (:file "destructuring") (:file "read")))
 
 (asdf:defsystem "discrepancy-finder/event-calculus"
   :description "Theories of the Discrete Event Calculus."
@@ -171,7 +171,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "task-control") (:file "failure-handling") (:file "failure-classes")
                (:file "parallel") (:file "tags") (:file "policies") (:file "plans")
                (:file "goals") (:file "hooks") (:file "occasions") (:file "process-modules")
-               (:file "executive") (:file "load-plan")))
+               (:file "executive") (:file "load-plan") (:file "indentation")))
 
 (asdf:defsystem "discrepancy-finder/symbolic-execution"
   :description "Plans on all inputs at once, along the paths that a theory allows."
@@ -249,4 +249,4 @@ The environment variable CXX names another compiler than g++."))
   :depends-on ("discrepancy-finder")
   :pathname "bench/"
   :serial t
-  :components ((:file "package") (:file "steps") (:file "benchmarks")))
+  :components ((:file "package") (:file "steps") (:file "plans") (:file "benchmarks")))

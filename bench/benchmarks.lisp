@@ -94,4 +94,5 @@ by pair."
           (discrepancy:run-seconds (df:run-plan 'discrepancy-finder-user::move-the-box
                                                 :domain :two-regions)))
   (format stream "symbolic execution        ~,2f ms for Example 1~%"
-          (* 1d3 (median-seconds (lambda () (example-trace)) :rounds 21))))
+          (* 1d3 (median-seconds (lambda () (example-trace)) :rounds 21)))
+  (print-plan-benchmarks stream))

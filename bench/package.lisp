@@ -6,10 +6,14 @@ same work without it.")
                     (#:foreign #:discrepancy-finder.foreign)
                     (#:geometry #:discrepancy-finder.geometry)
                     (#:z3 #:discrepancy-finder.z3)
+                    (#:plan #:discrepancy-finder.plan-language)
                     (#:discrepancy #:discrepancy-finder.discrepancy)
                     (#:df #:discrepancy-finder))
   (:export
    ;; all of them
    #:print-benchmarks
    ;; steps of a Bullet world, through Lisp and in plain C++
-   #:lisp-steps-per-second #:plain-steps-per-second))
+   #:lisp-steps-per-second #:plain-steps-per-second
+   ;; rounds of the plan language
+   #:perform-rounds #:retry-rounds #:plain-retry-rounds #:child-failure-rounds #:par-rounds
+   #:thread-rounds))

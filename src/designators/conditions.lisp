@@ -7,14 +7,17 @@
          :documentation "The form that is not well-formed.")
    (expected :initarg :expected :reader malformed-designator-expected
              :documentation "What was expected, as a string.")
+   (plan :initarg :plan :initform nil :reader malformed-designator-plan
+         :documentation "The name of the plan that the form stands in, or NIL.")
    (position :initarg :position :initform nil :reader malformed-designator-position
              :documentation "The source position of the form, or NIL if it is not known."))
   (:report (lambda (condition stream)
              (let ((*print-pretty* nil) (*print-length* 8) (*print-level* 4))
-               (format stream "~@[~a: ~]In ~s, ~a was expected."
+               (format stream "~@[~a: ~]In ~s~@[ of the plan ~(~a~)~], ~a was expected."
                        (let ((position (malformed-designator-position condition)))
                          (and position (princ-to-string position)))
                        (malformed-designator-form condition)
+                       (malformed-designator-plan condition)
                        (malformed-designator-expected condition)))))
   (:documentation "Signaled when a form that makes a designator is expanded, or MAKE-DESIGNATOR
 called, and what it says is no designator."))
@@ -29,14 +32,18 @@ called, and what it says is no designator."))
                :documentation "The known key that is most like it.")
    (form :initarg :form :reader unknown-designator-key-form
          :documentation "The designator form.")
+   (plan :initarg :plan :initform nil :reader unknown-designator-key-plan
+         :documentation "The name of the plan that the form stands in, or NIL.")
    (position :initarg :position :initform nil :reader unknown-designator-key-position
              :documentation "The source position of the form, or NIL if it is not known."))
   (:report (lambda (condition stream)
              (let ((*print-pretty* nil) (*print-length* 8) (*print-level* 4))
-               (format stream "~@[~a: ~]In ~s, the key ~(~s~) is unknown; did you mean ~(~s~)?"
+               (format stream "~@[~a: ~]In ~s~@[ of the plan ~(~a~)~], the key ~(~s~) is unknown; ~
+                               did you mean ~(~s~)?"
                        (let ((position (unknown-designator-key-position condition)))
                          (and position (princ-to-string position)))
                        (unknown-designator-key-form condition)
+                       (unknown-designator-key-plan condition)
                        (unknown-designator-key-key condition)
                        (unknown-designator-key-suggestion condition)))))
   (:documentation "Signaled as a warning when a designator form is expanded that has a key which

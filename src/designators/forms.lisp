@@ -25,7 +25,7 @@
 (defun malformed (expected form &optional part)
   "Signal MALFORMED-DESIGNATOR for PART of FORM."
   (error 'malformed-designator
-         :form form :expected expected
+         :form form :plan *plan* :expected expected
          :position (or (source:form-position part) (source:form-position form))))
 
 (defun variable-symbol-p (symbol)
@@ -84,6 +84,10 @@ designator FORM of CLASS, stands unconditionally."
                            if (eq (first segment) 'when) collect segment
                            else if segment collect `(list ,@segment)))))))
 
+(defun designator-form-in (environment quantifier form)
+  (let ((*plan* (source:enclosing-definition environment)))
+    (designator-form quantifier form)))
+
 (defun designator-form (quantifier form)
   "Return the form that makes the designator with QUANTIFIER for which FORM, (article type
 property*), stands."
@@ -99,29 +103,29 @@ property*), stands."
             `(make-designator ,class ,description)
             `(make-quantified-designator ,class ,description ,quantifier))))))
 
-(defmacro a (&whole form &optional type &body properties)
+(defmacro a (&whole form &optional type &body properties &environment environment)
   "Return a new designator of TYPE (action, motion, location, object or human, unevaluated) with
 PROPERTIES, a list of (key value*) or (when test (key value*)).  In a value, ?x is a variable, a
 special variable that is bound its value, another symbol a keyword, (an object ...) a designator,
 any other list a list.  Signals MALFORMED-DESIGNATOR and warns with UNKNOWN-DESIGNATOR-KEY when it
 is expanded."
   (declare (ignore type properties))
-  (designator-form :a form))
+  (designator-form-in environment :a form))
 
-(defmacro an (&whole form &optional type &body properties)
+(defmacro an (&whole form &optional type &body properties &environment environment)
   "The same as A."
   (declare (ignore type properties))
-  (designator-form :a form))
+  (designator-form-in environment :a form))
 
-(defmacro all (&whole form &optional type &body properties)
+(defmacro all (&whole form &optional type &body properties &environment environment)
   "Like A: a designator for all things that have the PROPERTIES; its quantifier is :all."
   (declare (ignore type properties))
-  (designator-form :all form))
+  (designator-form-in environment :all form))
 
-(defmacro the (&whole form &optional type &body properties)
+(defmacro the (&whole form &optional type &body properties &environment environment)
   "Like A: a designator for the only thing that has the PROPERTIES; its quantifier is :the.  Where
 TYPE is none of a designator, this is CL:THE."
   (if (and (symbolp type) (find type *designator-classes* :test #'string=)
            (every #'listp properties))
-      (designator-form :the form)
+      (designator-form-in environment :the form)
       `(cl:the ,type ,@properties)))

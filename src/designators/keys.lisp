@@ -88,11 +88,14 @@ none.  A plural or singular of a known key is taken for intended."
 (defvar *warned-forms* (make-hash-table :test 'eq :weakness :key :synchronized t)
   "The properties that were warned of: a form may be expanded often.")
 
+(defvar *plan* nil
+  "The name of the plan that the form which is being expanded stands in, or NIL.")
+
 (defun check-key (class key property form)
   "Warn if KEY, of the list PROPERTY of the designator FORM of CLASS, is much like a known key."
   (let ((suggestion (similar-key class key)))
     (when (and suggestion (not (gethash property *warned-forms*)))
       (setf (gethash property *warned-forms*) t)
       (warn 'unknown-designator-key
-            :key key :suggestion suggestion :form form
+            :key key :suggestion suggestion :form form :plan *plan*
             :position (or (source:form-position property) (source:form-position form))))))

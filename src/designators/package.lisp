@@ -45,9 +45,11 @@ objects and humans, and how they are resolved.")
    #:list-location-validation-functions #:validate-location-designator-solution
    #:*location-generator-max-retries* #:*print-location-validation-function-results*
    ;; conditions
-   #:malformed-designator #:malformed-designator-form #:malformed-designator-expected
+   #:malformed-designator #:malformed-designator-plan
+   #:malformed-designator-form #:malformed-designator-expected
    #:malformed-designator-position
-   #:unknown-designator-key #:unknown-designator-key-key #:unknown-designator-key-suggestion
+   #:unknown-designator-key #:unknown-designator-key-plan
+   #:unknown-designator-key-key #:unknown-designator-key-suggestion
    #:unknown-designator-key-form #:unknown-designator-key-position
    #:designator-error #:designator-error-designator
    #:invalid-location-function #:invalid-location-function-function

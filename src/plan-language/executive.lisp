@@ -33,8 +33,10 @@ if that fails, DESIGNATOR-NOT-UNDERSTOOD if EXECUTIVE cannot interpret DESIGNATO
   (:documentation "Signaled by PERFORM for an action with a goal that is no occasion."))
 
 (defun reference-failure (designator control &rest arguments)
+  "Fail because of DESIGNATOR; the text says in which plan."
   (fail 'designator-reference-failure
-        :designator designator :format-control control :format-arguments arguments))
+        :designator designator :format-control "~?~@[  (In the plan ~(~a~).)~]"
+        :format-arguments (list control arguments (current-plan-name))))
 
 (defun try-reference-designator (designator)
   "Return what DESIGNATOR is resolved to.  Signals DESIGNATOR-REFERENCE-FAILURE if it cannot be."

@@ -14,7 +14,7 @@ MALFORMED-PLAN-FORM."
 
 (define-compiler-macro retry (&whole form &environment environment)
   ;; The local function of WITH-FAILURE-HANDLING shadows this: here nobody will handle it.
-  (warn 'misplaced-retry :form form :plan (plan-name-in environment))
+  (warn 'misplaced-retry :form form :plan (source:enclosing-definition environment))
   form)
 
 (defun handled-condition (condition type)
@@ -92,7 +92,7 @@ MALFORMED-PLAN-FORM for FORM if there is none."
     (if (nth-value 1 (macroexpand-1 variable environment))
         variable
         (error 'malformed-plan-form
-               :form form :plan (plan-name-in environment)
+               :form form :plan (source:enclosing-definition environment)
                :expected (format nil "a retry counter ~(~a~) of an enclosing with-retry-counters"
                                  name)))))
 

@@ -94,7 +94,7 @@ anything else is signaled by ERROR."
   (let ((failure (failure-from arguments)))
     (on-fail failure)
     (when (and *break-on-plan-failures* (typep failure *break-on-plan-failures*))
-      (break "~a" failure))
+      (call-on-main (lambda () (break "~a" failure))))
     (cond ((and *current-task* (not *machinery*) (typep failure 'plan-failure))
            (signal failure)
            (fail-task *current-task* failure))

@@ -102,6 +102,8 @@ perform.")
    #:matching-process-module #:available-process-module #:projection-running
    #:get-running-process-modules
    #:process-module-not-running #:process-module-not-running-name
+   ;; editors
+   #:register-indentation
    ;; hooks, events and occasions
    #:hooks #:define-hook
    #:event #:on-event #:holds

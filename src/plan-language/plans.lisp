@@ -64,7 +64,7 @@ DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
 (defun task-form (name lambda-list forms top-level-p)
   "Return the form that runs FORMS as the task of the plan NAME."
   (let ((body `(lambda ()
-                 (symbol-macrolet ((%plan-name ,name))
+                 (source:with-definition (,name)
                    (block ,name (with-tags ,@forms))))))
     (if top-level-p
         `(call-in-top-level ,body ',name)

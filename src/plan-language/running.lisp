@@ -12,8 +12,9 @@
 (in-package #:discrepancy-finder.plan-language)
 
 (defvar *debug-on-lisp-errors* nil
-  "If true, an error in a task that is not handled there opens the debugger where it happened, with
-a restart RETHROW that ends the task with it.  If false the task ends with it at once.")
+  "If true, an error in a task that is not handled there opens the debugger (in the place where it
+happened if that is on the thread of the top-level) with a restart RETHROW that ends the task with
+it.  If false the task ends with it at once.")
 
 (defun make-task (name parent &key node)
   "Return a new task.  NAME is a symbol, a list or a function that returns a text."
@@ -40,6 +41,12 @@ a restart RETHROW that ends the task with it.  If false the task ends with it at
       (envelop-error condition)
       condition))
 
+(defun debug-error (condition)
+  "Let the user look at CONDITION, an error in a task."
+  (with-simple-restart (rethrow "End the task with this failure.")
+    (let ((*machinery* t))
+      (invoke-debugger condition))))
+
 (defun debugger-hook (outer-hook)
   "Return a function for *INVOKE-DEBUGGER-HOOK* that ends the current task with an error that nobody
 handles.  All else is for OUTER-HOOK."
@@ -47,9 +54,7 @@ handles.  All else is for OUTER-HOOK."
     (when (and *current-task* (not *machinery*)
                (typep condition '(or error plan-failure policy-condition storage-condition)))
       (when *debug-on-lisp-errors*
-        (with-simple-restart (rethrow "End the task with this failure.")
-          (let ((sb-ext:*invoke-debugger-hook* outer-hook))
-            (invoke-debugger condition))))
+        (call-on-main (lambda () (debug-error condition))))
       (setf (task-broken *current-task*) (envelope condition))
       (fail-task *current-task* (task-broken *current-task*)))
     (when outer-hook
@@ -80,7 +85,10 @@ pass the tasks first."
                      (let ((*current-task* task)
                            (*machinery* nil)
                            (sb-kernel:*handler-clusters* (scheduler-handlers scheduler))
-                           (sb-kernel:*restart-clusters* '()))
+                           (sb-kernel:*restart-clusters*
+                             (if (eq (task-strand task) (scheduler-main scheduler))
+                                 (scheduler-outside-restarts scheduler)
+                                 '())))
                        (setf (task-depth task) (binding-depth))
                        (funcall (the function function))))))))
 
@@ -204,7 +212,8 @@ is signaled again on the thread of the top-level, which the user sees."
           (scheduler-live scheduler) (delete strand (scheduler-live scheduler)))
     (let ((next (if (scheduler-leaving scheduler)
                     (scheduler-main scheduler)
-                    (next-strand scheduler))))
+                    (let ((*current-task* (strand-task strand)))
+                      (next-strand scheduler)))))
       (rest-worker worker)
       (hand-over next))))
 

@@ -125,11 +125,6 @@ true if all that it does is to look at something again and again."
 
 ;;; Which plan this is
 
-(defun plan-name-in (environment)
-  "Return the name of the plan around a macro form in ENVIRONMENT, or NIL."
-  (multiple-value-bind (name known) (macroexpand-1 '%plan-name environment)
-    (and known name)))
-
 (defun current-plan-name ()
   "Return the name of the innermost plan that runs, or NIL."
   (loop for task = *current-task* then (task-parent task)

@@ -83,7 +83,7 @@ their places; the parts of what EXPAND returns are expanded, too."
 
 (defun rename-vars (form)
   "Return FORM with a new variable for each of its variables, and the alist (variable . new
-variable). Each ?_ stays as it is."
+variable).  Each ?_ stays as it is."
   (let ((renaming (loop for variable in (vars-in form)
                         collect (cons variable (gen-var variable)))))
     (values (sublis renaming form) renaming)))

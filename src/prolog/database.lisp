@@ -96,13 +96,14 @@ faster.")
 
 ;;; Templates
 
-(defun make-template (form slots)
-  "Return FORM as a template.  SLOTS is a function that returns the slot of a variable."
+(defun make-template (form variable-slot)
+  "Return FORM as a template.  VARIABLE-SLOT is a function that returns the slot of a variable."
   (cond ((is-unnamed-var form) '%anything)
-        ((is-var form) (funcall slots form))
+        ((is-var form) (funcall variable-slot form))
         ((atom form) form)
         ((not (some-leaf #'is-var form)) (make-constant form))
-        (t (cons (make-template (car form) slots) (make-template (cdr form) slots)))))
+        (t (cons (make-template (car form) variable-slot)
+                 (make-template (cdr form) variable-slot)))))
 
 (defun term-key (term)
   "Return an object by which the index finds clauses whose first argument may unify with TERM, or
@@ -137,7 +138,9 @@ faster.")
                  (first (push (make-slot (length slots) variable) slots)))))
       (let* ((parameters (make-template (rest head) #'slot))
              (goals (loop for goal in goals collect (make-template goal #'slot)))
-             (first-parameter (if (consp (rest head)) (make-template (second head) #'slot) '%anything)))
+             (first-parameter (if (consp (rest head))
+                                  (make-template (second head) #'slot)
+                                  '%anything)))
         (make-clause :parameters parameters :goals goals :size (length slots)
                      :arity (if (null (cdr (last head))) (length (rest head)) nil)
                      :key (template-key first-parameter))))))

@@ -1,7 +1,7 @@
 ;;;; Terms: what is unified while a query is proved.
 ;;;;
 ;;;; A term is a Lisp object in which LOGIC-VARIABLEs stand where a query or a fact has a symbol ?x.
-;;;;  A variable is bound by assignment; the trail of the PROOF says which bindings to undo.
+;;;; A variable is bound by assignment; the trail of the PROOF says which bindings to undo.
 ;;;; INTERNALISE and EXTERNALISE go from symbols to variables and back.  UNIFY, at the end, is
 ;;;; unification as Lisp sees it.
 

@@ -9,6 +9,8 @@ form knows its file and line.")
    #:name-keyword
    ;; reading
    #:read-source #:load-source #:native-path #:native-name
+   ;; definitions
+   #:with-definition #:enclosing-definition
    ;; taking data apart
    #:destructuring-or
    ;; conditions

@@ -18,6 +18,7 @@
    (max-paths :initarg :max-paths :reader exploration-max-paths)
    (max-steps :initarg :max-steps :reader exploration-max-steps)
    (max-jumps :initarg :max-jumps :reader exploration-max-jumps)
+   (schedules :initarg :schedules :reader exploration-schedules)
    (context :initarg :context :reader exploration-context)
    (solver :initarg :solver :reader exploration-solver)
    (formula :initarg :formula :reader exploration-formula
@@ -97,12 +98,12 @@ UNSUPPORTED-FORM for another type than boolean and for parameters that do not fi
           collect (list parameter type))))
 
 (defun make-exploration (plan domain &key constraint arguments (max-paths 10000) (max-steps 1000)
-                                       (max-jumps 1000000))
+                                       (max-jumps 1000000) (schedules :one))
   "Return an EXPLORATION of the plan named PLAN (a symbol) in DOMAIN (an ACTION-THEORY or its name).
 CONSTRAINT is a state constraint or its name; with NIL the theory's only one.  ARGUMENTS is a list
 of (parameter boolean).  MAX-PATHS, MAX-STEPS (performs on a path) and MAX-JUMPS (iterations of
-loops and retries on a path) bound the search.  Signals
-PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
+loops and retries on a path) bound the search.  SCHEDULES is :ONE, tasks that run in parallel take
+turns in one fixed order, or :ALL, every order is a path of its own.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
   (let* ((plan (plan:find-plan plan))
          (domain (if (typep domain 'action-theory) domain (find-action-theory domain)))
          (constraint (if (ec:state-constraint-p constraint)
@@ -115,6 +116,7 @@ PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
     (make-instance 'exploration
                    :plan plan :domain domain :constraint constraint :arguments arguments
                    :max-paths max-paths :max-steps max-steps :max-jumps max-jumps
+                   :schedules schedules
                    :formula formula
                    :context context :solver (z3:make-solver context))))
 
@@ -182,6 +184,7 @@ NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of the pr
                           :solver solver :prefix prefix :states (list state)
                           :symbolic-p (and propositions t)
                           :max-steps (exploration-max-steps exploration)
+                          :schedules (exploration-schedules exploration)
                           :jumps-left (exploration-max-jumps exploration))))
     (loop for (nil . proposition) in (ec:initial-conditions state)
           do (assume path proposition))
@@ -238,10 +241,10 @@ twice.  Signals NONDETERMINISTIC-PLAN, UNSUPPORTED-FORM, SOLVER-UNKNOWN and what
                (return trace)))))
 
 (defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps
-                                          max-jumps)
+                                          max-jumps schedules)
   "Return an EXPLORATION that has found every trace of PLAN in DOMAIN and holds no foreign memory.
 The options are those of MAKE-EXPLORATION."
-  (declare (ignore constraint arguments max-paths max-steps max-jumps))
+  (declare (ignore constraint arguments max-paths max-steps max-jumps schedules))
   (let ((exploration (apply #'make-exploration plan domain (alexandria:remove-from-plist
                                                             options :domain))))
     (unwind-protect (loop while (next-trace exploration))

@@ -15,7 +15,8 @@
 (defstruct (path (:copier nil))
   "A symbolic run.  Lists are in reverse order but for PREFIX, what is still to be repeated.
 MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries.
-SYMBOLIC-P is true if the plan has symbolic arguments; HANDLERS are the condition handlers outside
+SYMBOLIC-P is true if the plan has symbolic arguments; with SCHEDULES :ALL the order in which
+parallel tasks take their turns is decided, too; HANDLERS are the condition handlers outside
 of the plan.  ENDING says why the run is over, :ERROR if by the condition FATAL."
   (plan nil :read-only t)
   (domain nil :type action-theory :read-only t)
@@ -29,6 +30,7 @@ of the plan.  ENDING says why the run is over, :ERROR if by the condition FATAL.
   (max-steps 1000 :type (integer 0) :read-only t)
   (jumps-left 0 :type fixnum)
   (symbolic-p nil :type boolean :read-only t)
+  (schedules :one :type (member :one :all) :read-only t)
   (handlers nil)
   (ending nil)
   (fatal nil))

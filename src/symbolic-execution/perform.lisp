@@ -70,5 +70,12 @@ enters that plan."
                  (outcome-value outcome)
                  (plan:fail (outcome-name outcome)))))))
 
+(defmethod plan:choose-strand ((path path) scheduler count)
+  (if (eq (path-schedules path) :all)
+      (decide path "the task that has its turn"
+              (loop for number below count collect (cons number t))
+              :exhaustive t)
+      (call-next-method)))
+
 (defmethod plan:call-plan-function ((path path) name arguments)
   (apply (global-function name) arguments))

@@ -1,0 +1,98 @@
+;;;; Lazy lists of the layer prolog.
+
+(in-package #:discrepancy-finder.tests)
+
+(in-suite prolog)
+
+(defun counted-naturals ()
+  "Return the lazy list of all natural numbers and a function that returns how many were computed."
+  (let ((count 0))
+    (values (prolog:lazy-list ((n 0))
+              (incf count)
+              (prolog:cont n (1+ n)))
+            (lambda () count))))
+
+(test elements-are-computed-once-and-when-asked-for
+  (multiple-value-bind (numbers count) (counted-naturals)
+    (is (= 1 (funcall count)))
+    (is (= 0 (prolog:lazy-car numbers)))
+    (is (= 1 (funcall count)))
+    (is (= 7 (prolog:lazy-elt numbers 7)))
+    (is (= 8 (funcall count)))
+    (is (= 3 (prolog:lazy-elt numbers 3)))
+    (is (= 2 (prolog:lazy-car (prolog:lazy-cdr (prolog:lazy-cdr numbers)))))
+    (is (= 8 (funcall count)))))
+
+(test operations-ask-for-no-more-than-they-give
+  (flet ((asked (n function)
+           (multiple-value-bind (numbers count) (counted-naturals)
+             (let ((result (funcall function numbers)))
+               (is (= n (funcall count)) "~d elements were computed" (funcall count))
+               result))))
+    (is (equal '(0 1 2) (asked 3 (lambda (l) (prolog:force-ll (prolog:lazy-take 3 l))))))
+    (asked 1 (lambda (l) (prolog:lazy-take 3 l)))
+    (asked 1 (lambda (l) (prolog:lazy-take 0 l)))
+    (asked 4 (lambda (l) (prolog:lazy-skip 3 l)))
+    (asked 1 (lambda (l) (prolog:lazy-mapcar #'1+ l)))
+    (asked 1 (lambda (l) (prolog:lazy-append l l)))
+    (asked 1 (lambda (l) (prolog:lazy-append '(1) l)))
+    (asked 3 (lambda (l) (prolog:lazy-mapcan (lambda (n) (if (= n 2) (list n) '())) l)))
+    (asked 6 (lambda (l) (prolog:lazy-filter (lambda (n) (> n 4)) l)))
+    (asked 3 (lambda (l) (prolog:lazy-elt (prolog:copy-lazy-list l) 2)))
+    (asked 3 (lambda (l) (prolog:lazy-elt (prolog:lazy-cross-product '(1) l) 2)))
+    (asked 3 (lambda (l) (prolog:lazy-set-difference '(2 1) l)))
+    (is (= 2 (asked 3 (lambda (l) (prolog:lazy-dolist (n l) (when (= n 2) (return n)))))))))
+
+(test ordinary-lists-are-lazy-lists
+  (is (equal '(2 3 4) (prolog:force-ll (prolog:lazy-mapcar #'1+ '(1 2 3)))))
+  (is (equal '(11 22) (prolog:force-ll (prolog:lazy-mapcar #'+ '(1 2 3) '(10 20)))))
+  (is (equal '(1 2 3 4) (prolog:force-ll (prolog:lazy-append '(1 2) '() '(3 4)))))
+  (is (equal '(1 a 2 b) (prolog:force-ll (prolog:lazy-mapcan #'list '(1 2) '(a b)))))
+  (is (equal '(1 2 3 4) (prolog:force-ll (prolog:lazy-flatten '((1 2) () 3 (4))))))
+  (is (equal '((1 a) (1 b) (2 a) (2 b))
+             (prolog:force-ll (prolog:lazy-cross-product '(1 2) '(a b)))))
+  (is (equal '(3 1) (prolog:force-ll (prolog:lazy-set-difference '(3 2 1) '(2)))))
+  (is (equal '("b") (prolog:force-ll
+                     (prolog:lazy-set-difference '("a" "b") '("a") :test #'string=))))
+  (is (= 6 (prolog:lazy-fold #'+ 0 '(1 2 3))))
+  (is (equal '(3 2 1) (prolog:lazy-fold (lambda (list n) (cons n list)) '() '(1 2 3))))
+  (is (null (prolog:lazy-car '())))
+  (is (null (prolog:lazy-cdr '())))
+  (is (null (prolog:lazy-elt '(1 2) 5)))
+  (is (null (prolog:lazy-append)))
+  (is-true (prolog:lazy-list-p '()))
+  (is-true (prolog:lazy-list-p (cdr (counted-naturals))))
+  (is-false (prolog:lazy-list-p 5)))
+
+(test copies-are-independent
+  (multiple-value-bind (numbers count) (counted-naturals)
+    (let ((copy (prolog:copy-lazy-list numbers)))
+      (is (= 4 (prolog:lazy-elt copy 4)))
+      (is (= 4 (prolog:lazy-elt numbers 4)))
+      (is (= 5 (funcall count)))
+      (setf (first copy) 'changed)
+      (is (= 0 (first numbers))))))
+
+(test generators-with-state
+  (is (equal '(1 1 2 3 5 8)
+             (prolog:force-ll (prolog:lazy-take 6 (prolog:lazy-list ((a 1) (b 1))
+                                                    (prolog:cont a b (+ a b)))))))
+  (is (equal '(0 2 4) (prolog:force-ll (prolog:lazy-list ((n 0))
+                                         (cond ((> n 5) (prolog:fin))
+                                               ((oddp n) (prolog:next (1+ n)))
+                                               (t (prolog:cont n (1+ n))))))))
+  (is (equal '(1 2 3) (prolog:force-ll (prolog:lazy-list () '(1 2 3)))))
+  (is (null (prolog:lazy-list ((n 0)) (if (< n 1000000) (prolog:next (1+ n)) (prolog:fin))))
+      "skipping does not fill the control stack")
+  (is (= 1000000 (prolog:lazy-car (prolog:lazy-filter (lambda (n) (= n 1000000))
+                                                      (counted-naturals)))))
+  (signals-with (error "outside of LAZY-LIST") (prolog:cont 1)))
+
+(test an-error-in-a-generator-can-be-tried-again
+  (let* ((broken t)
+         (list (prolog:lazy-list ((n 0))
+                 (when (and broken (= n 1)) (error "broken"))
+                 (prolog:cont n (1+ n)))))
+    (signals error (prolog:lazy-cdr list))
+    (setf broken nil)
+    (is (= 1 (prolog:lazy-elt list 1)))))
