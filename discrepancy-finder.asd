@@ -214,7 +214,9 @@ The environment variable CXX names another compiler than g++."))
                "discrepancy-finder/roslisp")
   :pathname "src/cram-compat/"
   :serial t
-  :components ((:file "package")))
+  :components ((:file "package") (:file "interfaces") (:file "projection-environments")
+               (:file "table") (:file "language-names") (:file "executive-names")
+               (:file "geometry-names") (:file "packages") (:file "systems") (:file "poses")))
 
 (asdf:defsystem "discrepancy-finder/tests"
   :description "The test suites, one a layer or subject."

@@ -68,6 +68,22 @@
                                   looking-at arms-parked gripper-opened gripper-closed
                                   torso-at tool-frames-at container-state robot-loc))
 
+(loop for (name text) in
+      '((object-in-hand "(object-in-hand ?object [?arm]): the robot holds the object.")
+        (object-picked "(object-picked ?object): the object was picked up.")
+        (object-put "(object-put ?object ?location): the object was put there.")
+        (object-placed-at "(object-placed-at ?object ?location): the object is there.")
+        (loc "(loc ?what ?location): a robot or an object is there.")
+        (looking-at "(looking-at ?location): the robot looks there.")
+        (arms-parked "(arms-parked): the arms are out of the way.")
+        (gripper-opened "(gripper-opened ?gripper): the gripper is open.")
+        (gripper-closed "(gripper-closed ?gripper): the gripper is closed.")
+        (torso-at "(torso-at ?angle): the torso is at this position.")
+        (tool-frames-at "(tool-frames-at ?left ?right): the tools are at these poses.")
+        (container-state "(container-state ?container ?distance): it is opened so far.")
+        (robot-loc "(robot-loc ?location): the robot is there."))
+      do (setf (documentation name 'prolog:predicate) text))
+
 (defun holds (occasion)
   "Return the lazy list of the binding sets for which OCCASION, a goal of prolog, holds now; NIL if
 it does not."

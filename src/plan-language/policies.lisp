@@ -53,6 +53,10 @@ form*)."
   "Define the policy NAME for WITH-NAMED-POLICY, and return it; see MAKE-POLICY."
   `(setf (gethash ',name *policies*) (make-policy ,name ,parameters ,@properties)))
 
+(defmethod documentation ((name symbol) (kind (eql 'policy)))
+  (let ((policy (gethash name *policies*)))
+    (and policy (policy-documentation policy))))
+
 (defun named-policy (name)
   "Return the policy NAME.  Signals POLICY-NOT-FOUND."
   (or (gethash name *policies*)

@@ -78,6 +78,15 @@ and return the primary value.  Signals PROCESS-MODULE-NOT-RUNNING and what the m
 (prolog:def-fact-group process-modules (matching-process-module available-process-module
                                         projection-running))
 
+(loop for (name text) in
+      '((matching-process-module
+         "(matching-process-module ?designator ?name): the process module is for the motion.")
+        (available-process-module
+         "(available-process-module ?name): the process module can be used now.")
+        (projection-running
+         "(projection-running ?name): the plan is only projected."))
+      do (setf (documentation name 'prolog:predicate) text))
+
 (defun matching-process-modules (designator)
   "Return the list of the names of the process modules that are for DESIGNATOR, can be used and run,
 in the order of the facts."

@@ -165,7 +165,7 @@
       (values arguments (length arguments)))))
 
 (defun fail-unknown (proof goal predicate)
-  (unless (and predicate (extendable-p (predicate-name predicate)))
+  (unless (extendable-p (car goal))
     (warn 'unknown-predicate
           :goal (externalise goal) :query (proof-query proof)
           :arities (and predicate
