@@ -231,7 +231,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "plan-language")
                (:module "symbolic-execution"
                 :serial t
-                :components ((:file "evaluator") (:file "exploration")))
+                :components ((:file "evaluator") (:file "exploration") (:file "parallel")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")

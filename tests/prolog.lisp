@@ -390,18 +390,3 @@
   (holds '(tests-negation (one 9)))
   (fails '(tests-negation (one 1)))
   (signals error (prolog:alias-predicate 'tests-negation 'parent)))
-
-(test predicates-are-described
-  (is (search "twice the number" (documentation 'tests-twice 'prolog:predicate)))
-  (let ((text (with-output-to-string (stream) (prolog:describe-predicates stream))))
-    (is (search "(lisp-pred function &rest arguments)" text))
-    (is (search "tests-family" text)))
-  (dolist (name '(and or not every member append length max min reduce sort equal < > <= >= = /=
-                  symbol-value slot-value format warn error
-                  prolog:-> prolog:*-> prolog:cut prolog:true prolog:fail prolog:call prolog:once
-                  prolog:forall prolog:findall prolog:bagof prolog:setof prolog:set-of prolog:take
-                  prolog:filter-bindings prolog:generate-values prolog:lisp-fun prolog:lisp-pred
-                  prolog:lisp-type prolog:instance-of prolog:assert-type prolog:set-symbol-value
-                  prolog:get-slot-value prolog:bound prolog:ground prolog:==
-                  prolog:string-concat))
-    (is-true (documentation name 'prolog:predicate) "~s has no documentation" name)))

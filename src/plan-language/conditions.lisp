@@ -71,6 +71,12 @@ CRAM, where NIL is found in the place of a task."))
   (:documentation "Signaled by a top-level all of whose tasks wait for something that cannot
 happen any more."))
 
+(define-condition top-level-interrupted (plan-error)
+  ()
+  (:report "The plan was interrupted, and one of its cleanup forms waited for another task.")
+  (:documentation "Signaled by a top-level that was left by a jump out of it, while a cleanup form
+of the plan did what can be done only as long as the plan runs."))
+
 (define-condition wait-for-nil (plan-error)
   ()
   (:report "wait-for called with nil argument.")

@@ -1,14 +1,132 @@
-;;;; Loading files of plans.
+;;;; Loading plans: a file, or an ASDF system of such files, as it is.
+;;;;
+;;;; A plan file is a Lisp file: it may define packages, facts, methods, functions, whatever.  Each
+;;;; of its forms is read with its position and evaluated before the next is read, so that plans know
+;;;; where they stand and the symbolic evaluator has their sources.
+;;;;
+;;;; HELPERS, functions that a plan file defines by DEFUN, are evaluated symbolically as well; their
+;;;; sources are noted by *MACROEXPAND-HOOK*.  It sees each DEFUN that is expanded: at top level, in
+;;;; PROGN and EVAL-WHEN, and those that macros of the file expand into, which an inspection of the
+;;;; forms would miss.  Its environment tells which ones close over something local: these and
+;;;; methods stay compiled functions for the evaluator.  A DEFUN of a name that is no symbol, such as
+;;;; (setf place), stays compiled, too.
+;;;;
+;;;; Of a system, ASDF loads what it depends on and says which files it has in which order.  These
+;;;; files are loaded as sources: compiled files have no positions.
 
 (in-package #:discrepancy-finder.plan-language)
 
-(defun load-plan (file)
-  "Load FILE, a file of plan definitions read in the package DISCREPANCY-FINDER-USER, and return
-the list of the plans that it defines, in their order.  Signals SOURCE-ERROR, which names file and
-line, if it cannot be read or loaded."
-  (let ((before (alexandria:hash-table-values *plans*)))
-    (source:load-source file :package '#:discrepancy-finder-user)
-    (sort (set-difference (alexandria:hash-table-values *plans*) before)
-          #'< :key (lambda (plan)
-                     (let ((position (plan-position plan)))
-                       (if position (source:source-position-line position) 0))))))
+;;; Helpers
+
+(defun global-environment-p (environment)
+  "Return true if nothing local to a form is visible in the macro ENVIRONMENT."
+  (or (null environment)
+      (and (null (sb-c::lexenv-vars environment))
+           (null (sb-c::lexenv-funs environment))
+           (null (sb-c::lexenv-blocks environment))
+           (null (sb-c::lexenv-tags environment)))))
+
+(defun helper-definition-p (form environment)
+  (and (eq (first form) 'defun)
+       (symbolp (second form))
+       (global-environment-p environment)))
+
+(defun plan-file-hook (outer)
+  "Return a function for *MACROEXPAND-HOOK*, where OUTER was, that lets definitions of functions
+record their sources and definitions of packages see global names of packages only."
+  (lambda (expander form environment)
+    (let ((expansion (funcall outer expander form environment)))
+      (cond ((atom form) expansion)
+            ((helper-definition-p form environment)
+             (destructuring-bind (name lambda-list &rest body) (rest form)
+               `(progn ,expansion
+                       (record-helper ',name ',lambda-list ',body
+                                      ,(source:form-position form)))))
+            ;; What a package of the file uses as CPL is CRAM's; that this is also a nickname local to
+            ;; the package in which the file begins to be read is not meant.
+            ((eq (first form) 'defpackage)
+             `(let ((*package* (find-package '#:keyword))) ,expansion))
+            (t expansion)))))
+
+(defun load-plan-sources (files name package)
+  "Load FILES, which are NAME as a whole, in PACKAGE; return the plans that they define, in order."
+  (let ((*noted-plans* '())
+        (*macroexpand-hook* (plan-file-hook *macroexpand-hook*)))
+    (source:load-sources files name :package package)
+    (remove-duplicates (reverse *noted-plans*) :key #'plan-name)))
+
+;;; Systems
+
+(defun system-error (name reason)
+  (error 'source:source-error :file name :reason reason))
+
+(defun call-explaining-asdf (name function)
+  "Call FUNCTION; an error that does not say itself where it is becomes a SOURCE-ERROR for the system
+or file NAME."
+  (handler-bind ((error (lambda (condition)
+                          (unless (source:self-explaining-p condition)
+                            (system-error
+                             name
+                             (source:condition-sentence
+                              (if (typep condition 'asdf:load-system-definition-error)
+                                  (asdf/find-system:error-condition condition)
+                                  condition)))))))
+    (let ((*compile-verbose* nil) (*compile-print* nil) (*load-verbose* nil))
+      (funcall function))))
+
+(defun defined-system (file)
+  "Return the ASDF system that FILE, an .asd file, defines under its own name."
+  (let ((path (source:native-path file))
+        (name (source:native-name file)))
+    (unless (uiop:file-exists-p path)
+      (system-error name "no such file"))
+    (call-explaining-asdf name (lambda () (asdf:load-asd (truename path))))
+    (or (asdf:registered-system (pathname-name path))
+        (system-error name (format nil "it defines no system named ~a" (pathname-name path))))))
+
+(defun named-system (name)
+  "Return the ASDF system with the name of the symbol NAME."
+  (let ((name (asdf:coerce-name name)))
+    (or (call-explaining-asdf name (lambda () (asdf:find-system name nil)))
+        (system-error name "ASDF finds no system of this name"))))
+
+(defun component-files (component name)
+  "Return a list of the Lisp file that COMPONENT, of the system NAME, is; none if it is none."
+  (typecase component
+    (asdf:cl-source-file (list (asdf:component-pathname component)))
+    ((or asdf:parent-component asdf:static-file) '())
+    (t (system-error name (format nil "its component ~a is neither Lisp nor a static file, but a ~
+                                       ~(~a~)"
+                                  (asdf:component-name component)
+                                  (type-of component))))))
+
+(defun system-files (system)
+  "Return the list of the Lisp files of SYSTEM itself, in the order in which they are to be loaded."
+  (loop for component in (asdf:required-components system :other-systems nil
+                                                          :goal-operation 'asdf:load-op
+                                                          :keep-operation 'asdf:load-op)
+        append (component-files component (asdf:component-name system))))
+
+(defun load-system (system)
+  "Load SYSTEM, its own files as sources, and return the list of the plans that these define."
+  (let ((name (asdf:component-name system)))
+    (load-plan-sources (call-explaining-asdf
+                        name
+                        (lambda ()
+                          ;; All that it depends on.
+                          (asdf:operate 'asdf:prepare-op system)
+                          (system-files system)))
+                       name
+                       '#:common-lisp-user)))
+
+(defun load-plan (source)
+  "Load plans and return the list of the PLANs that are defined, in their order, those that were
+defined before included.  SOURCE is a file of plan definitions, read in the package
+DISCREPANCY-FINDER-USER unless it says otherwise; or an .asd file; or a symbol, the name of an ASDF
+system.  Of a system, the Lisp files are loaded in their order, after what it depends on.  Signals
+SOURCE-ERROR, which names file and line, if something cannot be read or loaded."
+  (cond ((symbolp source) (load-system (named-system source)))
+        ((equalp (pathname-type (source:native-path source)) "asd")
+         (load-system (defined-system source)))
+        (t (load-plan-sources (list source) (source:native-name source)
+                              '#:discrepancy-finder-user))))

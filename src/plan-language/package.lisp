@@ -124,7 +124,7 @@ perform.")
    #:malformed-plan-form #:malformed-plan-form-form #:malformed-plan-form-expected
    #:malformed-plan-form-plan
    #:misplaced-retry #:misplaced-retry-form
-   #:deadlock #:deadlock-waiting #:wait-for-nil
+   #:deadlock #:deadlock-waiting #:top-level-interrupted #:wait-for-nil
    #:task-left-by-jump #:task-left-by-jump-task #:task-not-found #:task-not-found-path
    #:process-module-not-found #:process-module-not-found-name
    #:no-goal-fits #:no-goal-fits-name #:no-goal-fits-arguments

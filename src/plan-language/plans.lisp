@@ -2,7 +2,9 @@
 ;;;;
 ;;;; DEF-CRAM-FUNCTION and DEF-TOP-LEVEL-CRAM-FUNCTION define a Lisp function, compiled by SBCL, and
 ;;;; record lambda list, body and source position under its name: FIND-PLAN returns the record, from
-;;;; which the symbolic evaluator works.  LOAD-PLAN loads a file of plans.
+;;;; which the symbolic evaluator works.  LOAD-PLAN loads a file of plans and records the source of
+;;;; the functions that it defines by DEFUN, too: these are helpers, no plans, but the evaluator
+;;;; interprets them in the same way.
 
 (in-package #:discrepancy-finder.plan-language)
 
@@ -13,7 +15,9 @@
   (body '() :type list :read-only t)
   (documentation nil :type (or null string) :read-only t)
   (top-level-p nil :type boolean :read-only t)
-  (position nil :type (or null source:source-position) :read-only t))
+  (position nil :type (or null source:source-position) :read-only t)
+  ;; NIL for a plan; for a helper the function that its definition was compiled to.
+  (helper nil :type (or null function) :read-only t))
 
 (setf (documentation 'plan-name 'function)
       "Return the symbol that names a plan."
@@ -36,19 +40,40 @@
 (defvar *plans* (make-hash-table :test 'eq)
   "The plan of each name.")
 
+(defvar *noted-plans* :none
+  "The list of the plans that were recorded while LOAD-PLAN runs, the last one first.")
+
 (defun plan-source (name)
-  "Return the PLAN of the function named by the symbol NAME, or NIL if it is no plan."
-  (values (gethash name *plans*)))
+  "Return the PLAN of the function named by the symbol NAME, also if that is a helper that LOAD-PLAN
+has loaded, or NIL.  A helper that was redefined since in another way has none."
+  (let ((plan (gethash name *plans*)))
+    (and plan
+         (or (null (plan-helper plan))
+             (and (fboundp name) (eq (fdefinition name) (plan-helper plan))))
+         plan)))
 
 (defun find-plan (name)
   "Return the PLAN named by the symbol NAME, or by the symbol of the same name in the package
 DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
-  (or (plan-source name)
-      (plan-source (find-symbol (symbol-name name) '#:discrepancy-finder-user))
-      (error 'plan-not-found :name name)))
+  (flet ((plan-of (name)
+           (let ((plan (plan-source name)))
+             (and plan (null (plan-helper plan)) plan))))
+    (or (plan-of name)
+        (plan-of (find-symbol (symbol-name name) '#:discrepancy-finder-user))
+        (error 'plan-not-found :name name))))
 
 (defun record-plan (plan)
+  (unless (or (plan-helper plan) (eq *noted-plans* :none))
+    (push plan *noted-plans*))
   (setf (gethash (plan-name plan) *plans*) plan))
+
+(defun record-helper (name lambda-list body position)
+  "Record the source of the function NAME, which was just defined with LAMBDA-LIST and BODY."
+  (multiple-value-bind (forms declarations) (split-body body)
+    (record-plan (make-plan :name name :lambda-list lambda-list
+                            :body (append declarations forms)
+                            :position position :helper (fdefinition name))))
+  name)
 
 (defun split-body (body)
   "Return the forms, the declarations and the documentation string of the function body BODY."

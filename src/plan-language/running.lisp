@@ -115,9 +115,20 @@ pass the tasks first."
                       (fail-task task (task-broken task)))
                     :succeeded))))
       (setf (strand-task strand) outer)
-      (unless (or outcome (null parent) (being-left-p parent))
-        (setf (task-escaped parent) task))
-      (finish-task task (or outcome :evaporated)))))
+      (cond (outcome (finish-task task outcome))
+            ((or (null parent) (being-left-p task))
+             (abandon-task task :evaporated))
+            ((eq (task-strand parent) strand)
+             (setf (task-escaped parent) task)
+             (abandon-task task :evaporated))
+            (t
+             ;; A jump out of the thread: it would unwind all of it, so it ends here.
+             (setf (task-result task) (envelope (left-by-jump task)))
+             (abandon-task task :failed)
+             (throw strand nil))))))
+
+(defun left-by-jump (task)
+  (make-condition 'task-left-by-jump :task (task-text task)))
 
 (defun being-left-p (task)
   "Return true if TASK is being left because the plan is or because it evaporates."
@@ -130,7 +141,7 @@ pass the tasks first."
   "Fail if a child of TASK was left by a jump: a task can only be left by its end."
   (let ((child (shiftf (task-escaped task) nil)))
     (when child
-      (fail (make-condition 'task-left-by-jump :task (task-text child))))))
+      (fail (left-by-jump child)))))
 
 (defun finish-task (task status)
   "Let the children of TASK end, then give it its last STATUS and tell those who wait for it."
@@ -150,6 +161,18 @@ pass the tasks first."
     (dolist (joiner (shiftf (task-joiners task) '()))
       (wake joiner))
     status))
+
+(defun abandon-task (task status)
+  "Note that TASK was left by a jump and has STATUS now.  Its children evaporate when they have their turns; the parent
+of TASK will wait for that."
+  (let ((*current-task* task)
+        (parent (task-parent task)))
+    (dolist (child (task-children task))
+      (evaporate child :sync nil)
+      (when parent
+        (push child (task-children parent))))
+    (setf (task-children task) '())
+    (finish-task task status)))
 
 (defun wait-for-tasks (tasks predicate)
   "Block until PREDICATE is true, which depends on the states of TASKS."

@@ -170,14 +170,27 @@ in which they became ready, gets the baton.  An executive that explores all orde
               (strand-semaphore strand) (worker-semaphore worker))))
     (sb-thread:signal-semaphore (strand-semaphore strand))))
 
+(defun await-baton-and-serve (scheduler)
+  "On the main strand, wait for the baton and serve requests of others meanwhile.  Left in another
+way, by a handler around the top-level or by the user, the strand that is at work is stopped first."
+  (let ((back nil))
+    (unwind-protect
+         (loop
+           (sb-thread:wait-on-semaphore (strand-semaphore (scheduler-main scheduler)))
+           (let ((request (shiftf (scheduler-request scheduler) nil)))
+             (unless request
+               (setf back t)
+               (return))
+             (serve scheduler request)))
+      (unless back
+        (stop-current-strand scheduler)))))
+
 (defun await-baton (strand)
-  "Wait for the baton.  The main strand serves requests of others meanwhile."
+  "Wait for the baton."
   (let ((scheduler (strand-scheduler strand)))
-    (loop
-      (sb-thread:wait-on-semaphore (strand-semaphore strand))
-      (if (and (eq strand (scheduler-main scheduler)) (scheduler-request scheduler))
-          (serve scheduler (shiftf (scheduler-request scheduler) nil))
-          (return)))))
+    (if (eq strand (scheduler-main scheduler))
+        (await-baton-and-serve scheduler)
+        (sb-thread:wait-on-semaphore (strand-semaphore strand)))))
 
 (defun switch (strand)
   "Let the next strand run, and return when STRAND, the caller's, has the baton again."

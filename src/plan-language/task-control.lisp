@@ -120,9 +120,10 @@ Called wherever a strand gets the baton."
           (set-status task :running))))))
 
 (defun strands-within (task)
-  "Return the strands on which TASK and tasks below it run."
-  (remove-if-not (lambda (strand) (within-p (strand-task strand) task))
-                 (scheduler-live (task-scheduler task))))
+  "Return the strands on which TASK and tasks below it run, the oldest first."
+  (sort (remove-if-not (lambda (strand) (within-p (strand-task strand) task))
+                       (scheduler-live (task-scheduler task)))
+        #'< :key #'strand-number))
 
 (defun suspend (task &key reason (sync t))
   "Let TASK and its children pause where they block, until WAKE-UP.  With SYNC return when it does.

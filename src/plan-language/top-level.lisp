@@ -32,11 +32,17 @@
          (cond ((eq (strand-state strand) :requesting)
                 (sb-thread:signal-semaphore (strand-semaphore strand)))
                ((eq (scheduler-current scheduler) strand)
-                ;; The user has interrupted the main thread while this one was at work.
                 (sb-thread:interrupt-thread (worker-thread (strand-worker strand))
                                             (lambda () (throw strand nil))))
                (t (hand-over strand)))
-         (await-baton (scheduler-main scheduler)))))
+         (sb-thread:wait-on-semaphore (strand-semaphore (scheduler-main scheduler))))))
+
+(defun stop-current-strand (scheduler)
+  "Stop the strand that has the baton, which is not the main one; then this has it."
+  (unless (scheduler-leaving scheduler)
+    (setf (scheduler-leaving scheduler) (list :abort)))
+  (stop-strand scheduler (scheduler-current scheduler))
+  (setf (scheduler-current scheduler) (scheduler-main scheduler)))
 
 (defun end-scheduler (scheduler)
   "End all strands of SCHEDULER but the main one, if there are any left."
@@ -44,9 +50,6 @@
     (when (rest (scheduler-live scheduler))
       (unless (scheduler-leaving scheduler)
         (setf (scheduler-leaving scheduler) (list :abort)))
-      (let ((busy (scheduler-current scheduler)))
-        (unless (eq busy main)
-          (stop-strand scheduler busy)))
       (loop for strand = (find main (scheduler-live scheduler) :test-not #'eq)
             while strand
             do (stop-strand scheduler strand)))))
@@ -69,8 +72,10 @@ NIL, and return its values."
            (let ((sb-ext:*invoke-debugger-hook* (debugger-hook sb-ext:*invoke-debugger-hook*)))
              (run-task task function))
         (end-scheduler scheduler)))
-    (when (eq (first (scheduler-leaving scheduler)) :error)
-      (error (second (scheduler-leaving scheduler))))
+    (case (first (scheduler-leaving scheduler))
+      (:error (error (second (scheduler-leaving scheduler))))
+      ;; A cleanup form has waited for something: where to was lost.
+      (:abort (error 'top-level-interrupted)))
     (ecase (task-status task)
       (:succeeded (values-list (task-result task)))
       (:failed (error (open-envelope (task-result task))))
@@ -82,8 +87,9 @@ again by ERROR.  Top-levels cannot be nested: NESTED-TOP-LEVEL."
   `(call-in-top-level (lambda () ,@body)))
 
 (defmacro named-top-level ((&key name) &body body)
-  "The same as TOP-LEVEL; the task tree is kept under NAME, for GET-TOP-LEVEL-TASK-TREE."
-  `(call-in-top-level (lambda () ,@body) ,name))
+  "The same as TOP-LEVEL; the task tree is kept under NAME, a symbol that is not evaluated, for
+GET-TOP-LEVEL-TASK-TREE."
+  `(call-in-top-level (lambda () ,@body) ',name))
 
 (defmacro seq (&body body)
   "Evaluate the forms of BODY one after the other; return the values of the last."

@@ -8,7 +8,7 @@ form knows its file and line.")
    ;; names
    #:name-keyword
    ;; reading
-   #:read-source #:load-source #:native-path #:native-name
+   #:read-source #:load-source #:load-sources #:native-path #:native-name
    ;; definitions
    #:with-definition #:enclosing-definition
    ;; taking data apart

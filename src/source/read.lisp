@@ -170,10 +170,11 @@ file and line in front of it.")
                     (one-line (sb-kernel::program-error-message condition)))
                    (t (condition-sentence condition)))))
 
-(defun call-with-warning-lines (function file)
-  "Call FUNCTION with a function that it calls with the line of FILE that it is at, or NIL.  Of what
-the compiler says meanwhile the warnings are printed, a line each."
+(defun call-with-warning-lines (function)
+  "Call FUNCTION with a function that it calls with the file and the line, or NIL, that it is at.  Of
+what the compiler says meanwhile the warnings are printed, a line each."
   (let ((errors *error-output*)
+        (file nil)
         (line nil))
     (let ((*error-output* (make-broadcast-stream)))
       (handler-bind ((warning (lambda (condition)
@@ -181,7 +182,9 @@ the compiler says meanwhile the warnings are printed, a line each."
                                   (format errors "~&~a~@[:~d~]: warning: ~a~%" file line
                                           (condition-sentence condition)))
                                 (muffle-warning condition))))
-        (funcall function (lambda (new-line) (setf line new-line)))))))
+        (funcall function (lambda (new-file new-line)
+                            (setf file new-file
+                                  line new-line)))))))
 
 (defun evaluate-form (form file line)
   "Evaluate FORM, which begins at LINE of FILE; an error is a SOURCE-ERROR if it does not say itself
@@ -193,19 +196,25 @@ where it is."
     (let ((*load-pathname* file) (*load-truename* (truename file)))
       (eval form))))
 
+(defun load-sources (files name &key (package *package*))
+  "Load FILES one after the other, as LOAD-SOURCE does each, and return the list of their true names.
+Functions that any of the files defines are not undefined in another one.  NAME is what a warning
+names that concerns them as a whole."
+  (let ((files (mapcar #'native-path files)))
+    (call-with-warning-lines
+     (lambda (note-place)
+       (with-compilation-unit (:override t)
+         (dolist (file files)
+           (let ((native-name (native-name file)))
+             (map-forms (lambda (form line)
+                          (funcall note-place native-name line)
+                          (evaluate-form form file line))
+                        file package)))
+         (funcall note-place name nil))))
+    (mapcar #'truename files)))
+
 (defun load-source (file &key (package *package*))
   "Read the forms of FILE in PACKAGE and evaluate each before the next is read, as LOAD does.
 Return the true name of FILE.  Signals SOURCE-ERROR, which names file and line, also for an error
 that occurs while a form is evaluated."
-  (let ((file (native-path file)))
-    (call-with-warning-lines
-     (lambda (note-line)
-       ;; Functions that a later form defines are not undefined.
-       (with-compilation-unit (:override t)
-         (map-forms (lambda (form line)
-                      (funcall note-line line)
-                      (evaluate-form form file line))
-                    file package)
-         (funcall note-line nil)))
-     (native-name file))
-    (truename file)))
+  (first (load-sources (list file) (native-name file) :package package)))
