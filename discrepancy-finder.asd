@@ -214,7 +214,8 @@ The environment variable CXX names another compiler than g++."))
                "discrepancy-finder/roslisp")
   :pathname "src/cram-compat/"
   :serial t
-  :components ((:file "package") (:file "interfaces") (:file "projection-environments")
+  :components ((:file "package") (:file "interfaces") (:file "motions")
+               (:file "projection-environments")
                (:file "table") (:file "language-names") (:file "executive-names")
                (:file "geometry-names") (:file "packages") (:file "systems") (:file "poses")))
 

@@ -51,6 +51,8 @@
       (restart-name-p symbol)
       ;; Words of designators, such as (a motion ...).
       (member symbol '(plan:action plan:motion plan:object plan:location plan:human))
+      ;; Words of paths in the task tree.
+      (member symbol '(plan:tagged plan:goal plan:process-module))
       ;; The role that designators are resolved in where none is named.
       (eq symbol 'desig:default-role)))
 

@@ -90,7 +90,7 @@ rows show what is wrong on purpose, too."
   (let ((outcome (call-as-user
                   (lambda ()
                     (handler-case (values-text (multiple-value-list (funcall function)))
-                      (condition (condition)
+                      ((or serious-condition plan:policy-condition) (condition)
                         (format nil "signals ~s" (type-of condition))))))))
     (list outcome
           (call-as-user (lambda ()

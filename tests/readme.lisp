@@ -45,7 +45,7 @@
 (test the-readme-shows-the-repl
   (let ((entries (transcript-entries (readme-block "* (asdf:load-system")))
         (* nil))
-    (is (= 7 (length entries)))
+    (is (= 9 (length entries)))
     (let ((*package* (find-package '#:discrepancy-finder-user)))
       (loop for (text expected) in (cddr entries)
             do (let ((values (multiple-value-list

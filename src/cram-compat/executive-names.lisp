@@ -41,6 +41,14 @@
   "Properties with types."
   (#:discrepancy-finder.designators #:property))
 
+;; CRAM's symbol INSPECT is that of COMMON-LISP.
+(define-compat-package #:cram-common-designators () "cram-common-designators"
+  "The commands that motions are resolved to."
+  (#:cl #:inspect)
+  (#:discrepancy-finder.cram-compat
+   #:move-base #:move-torso #:move-head #:detect #:move-gripper-joint #:move-tcp #:move-joints
+   #:move-with-constraints))
+
 (define-compat-package #:cram-executive (#:exe) "cram-executive"
   "Performing designators."
   (#:discrepancy-finder.plan-language

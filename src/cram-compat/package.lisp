@@ -23,6 +23,9 @@ what loads a file of plans that was written for CRAM.")
    #:end-effector-link #:robot-torso-link-joint #:robot-tool-frame #:robot-joint-states
    #:robot-pan-tilt-links #:robot-pan-tilt-joints #:reachability-designator
    #:designator-reach-pose #:visibility-designator
+   ;; commands of cram-common-designators
+   #:move-base #:move-torso #:move-head #:detect #:move-gripper-joint #:move-tcp
+   #:move-joints #:move-with-constraints
    ;; functions of cram-object-interfaces
    #:get-object-type-gripping-effort #:get-object-type-gripper-opening
    #:get-object-type-grasps #:get-object-grasping-poses

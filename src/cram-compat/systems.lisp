@@ -6,8 +6,8 @@
 (in-package #:discrepancy-finder.cram-compat)
 
 (defparameter *further-systems*
-  '("cram-core" "cram-math" "cram-test-utilities" "cram-execution-trace" "cram-common-designators"
-    "cl-tf2" "cram-projection" "cram-manipulation-interfaces")
+  '("cram-core" "cram-math" "cram-test-utilities" "cram-execution-trace" "cl-tf2"
+    "cram-manipulation-interfaces")
   "Systems of CRAM without a package of the table that systems of plans depend on.")
 
 (dolist (system (remove-duplicates

@@ -17,7 +17,9 @@
                 #:state-constraint-not-found)
   (:import-from #:discrepancy-finder.plan-language
                 #:load-plan #:plan-error #:plan-not-found #:malformed-plan-form
-                #:designator-not-understood)
+                #:designator-not-understood #:not-in-top-level #:nested-top-level #:deadlock)
+  (:import-from #:discrepancy-finder.designators
+                #:malformed-designator #:unknown-designator-key)
   (:import-from #:discrepancy-finder.symbolic-execution
                 #:define-action #:region-of #:exploration #:exploration-traces
                 #:exploration-complete-p #:exploration-paths #:exploration-gaps
@@ -40,7 +42,7 @@
                 #:invalid-confidence #:unknown-confidence-rule #:invalid-argument)
   (:import-from #:discrepancy-finder.projection
                 #:projection-error #:scene-error #:urdf-error #:unknown-parameter
-                #:impossible-parameter #:unknown-body)
+                #:impossible-parameter #:unknown-body #:missing-robot-part)
   (:import-from #:discrepancy-finder.source #:source-error)
   (:import-from #:discrepancy-finder.z3
                 #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat)
@@ -66,8 +68,11 @@
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
    #:unknown-atom
    #:plan-error #:plan-not-found #:malformed-plan-form #:designator-not-understood
+   #:not-in-top-level #:nested-top-level #:deadlock
+   #:malformed-designator #:unknown-designator-key
    #:domain-not-found #:source-error #:scene-error #:urdf-error
    #:projection-error #:unknown-parameter #:impossible-parameter #:unknown-body
+   #:missing-robot-part
    #:symbolic-execution-error #:plan-broke #:unsupported-form #:nondeterministic-plan
    #:action-problem
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error

@@ -82,7 +82,8 @@ one, by the function TEST, than when a task last waited for it."
   (make-instance 'changed-fluent :name (fluent-name fluent) :origin fluent :key key :test test
                                  :last (funcall key (value fluent))))
 
-;;; The symbols of package CPL also stand where those of CL do: as the REPL's variables and in types.
+;;; The symbols of package CPL also stand where those of CL do: as the REPL's variables and in
+;;; types.
 
 (define-symbol-macro discrepancy-finder.cpl:* *)
 (define-symbol-macro discrepancy-finder.cpl:+ +)

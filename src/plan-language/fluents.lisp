@@ -164,7 +164,8 @@ while nobody waited :NEVER forgets all, :ONCE handles one, :ALWAYS handles each.
 
 (defun fluent-text (fluent)
   (if (fluent-name fluent)
-      (format nil "the fluent ~a" (fluent-name fluent))
+      (format nil (if (symbolp (fluent-name fluent)) "the fluent ~(~a~)" "the fluent ~a")
+              (fluent-name fluent))
       "a fluent without a name"))
 
 (defun await-fluent (fluent deadline)

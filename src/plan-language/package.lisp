@@ -37,7 +37,8 @@ perform.")
    #:suspend #:wake-up #:evaporate #:with-task-suspended
    #:on-suspension #:retry-after-suspension #:without-scheduling #:with-scheduling
    #:define-task-variable #:call-in-task
-   ;; the task tree
+   ;; the task tree, and what its paths consist of
+   #:tagged #:goal #:process-module
    #:with-task-tree-node #:task-path #:current-path #:get-top-level-task-tree
    #:task-tree-node #:task-tree-node-path #:task-tree-node-parent #:task-tree-node-children
    #:task-tree-node-code #:task-tree-node-parameters #:task-tree-node-task

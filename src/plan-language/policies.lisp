@@ -3,7 +3,8 @@
 ;;;; A policy has parameters and up to four parts: :INIT runs first and must be true, :CHECK is
 ;;;; asked every 0.01 s of the plan's clock while the body runs, and when it is true the body
 ;;;; evaporates, :RECOVER runs, and WITH-POLICY fails with POLICY-CHECK-CONDITION-MET.  :CLEAN-UP
-;;;; runs in any case.  An executive performs a designator as a whole: policies are checked between performs.
+;;;; runs in any case.  An executive performs a designator as a whole: policies are checked between
+;;;; performs.
 
 (in-package #:discrepancy-finder.plan-language)
 

@@ -8,8 +8,8 @@
 (in-package #:discrepancy-finder.plan-language)
 
 (defstruct (request (:constructor make-request (strand function)) (:copier nil))
-  "What STRAND asks for.  RESULT is the list of the values of FUNCTION, FAILURE the plan failure that
-it ended with."
+  "What STRAND asks for.  RESULT is the list of the values of FUNCTION, FAILURE the plan failure
+that it ended with."
   (strand nil :read-only t)
   (function nil :read-only t)
   (result '() :type list)

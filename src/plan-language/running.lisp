@@ -163,8 +163,8 @@ pass the tasks first."
     status))
 
 (defun abandon-task (task status)
-  "Note that TASK was left by a jump and has STATUS now.  Its children evaporate when they have their turns; the parent
-of TASK will wait for that."
+  "Note that TASK was left by a jump and has STATUS now.  Its children evaporate when they have
+their turns; the parent of TASK will wait for that."
   (let ((*current-task* task)
         (parent (task-parent task)))
     (dolist (child (task-children task))
@@ -252,7 +252,8 @@ is signaled again on the thread of the top-level, which the user sees."
   (let* ((parent (task-parent child))
          (scheduler (task-scheduler child)))
     (check-escape parent)
-    (cond ((or (alone-p scheduler) (scheduler-uninterrupted scheduler))
+    (cond ((task-dead-p child))         ; a tag that has evaporated before it was reached
+          ((or (alone-p scheduler) (scheduler-uninterrupted scheduler))
            (setf (task-strand child) (task-strand parent))
            (check-events (task-strand parent))
            (run-task child function))

@@ -62,7 +62,8 @@ task that sets it sets its own."
   "Return what TASK is, in words: the name of a plan, a designator, a tag."
   (let ((name (task-name task)))
     (cond ((functionp name) (princ-to-string (funcall name)))
-          ((consp name) (format nil "~{~a~^ ~}" name))
+          ((consp name) (format nil "~(~{~a~^ ~}~)" name))
+          ((symbolp name) (string-downcase name))
           (t (princ-to-string name)))))
 
 (defun dead-status-p (status)

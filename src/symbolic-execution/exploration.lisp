@@ -103,7 +103,8 @@ UNSUPPORTED-FORM for another type than boolean and for parameters that do not fi
 CONSTRAINT is a state constraint or its name; with NIL the theory's only one.  ARGUMENTS is a list
 of (parameter boolean).  MAX-PATHS, MAX-STEPS (performs on a path) and MAX-JUMPS (iterations of
 loops and retries on a path) bound the search.  SCHEDULES is :ONE, tasks that run in parallel take
-turns in one fixed order, or :ALL, every order is a path of its own.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
+turns in one fixed order, or :ALL, every order is a path of its own.  Signals PLAN-NOT-FOUND,
+DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
   (let* ((plan (plan:find-plan plan))
          (domain (if (typep domain 'action-theory) domain (find-action-theory domain)))
          (constraint (if (ec:state-constraint-p constraint)

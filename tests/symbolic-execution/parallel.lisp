@@ -97,7 +97,7 @@
                                 :test #'equal))))
 
 (test deadlocks-of-plans-are-errors
-  (signals-with (plan:deadlock "the fluent NEVER")
+  (signals-with (plan:deadlock "the fluent never")
     (explore-text "
 (def-top-level-cram-function lamp-plan ()
   (par (perform (a motion (type toggling) (lamp a)))

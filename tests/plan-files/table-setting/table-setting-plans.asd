@@ -14,6 +14,7 @@
                cram-utilities
                cram-designators
                cram-designator-specification
+               cram-common-designators
                cram-executive
                cram-process-modules
                cram-projection
@@ -27,7 +28,7 @@
   ((:static-file "notes.txt")
    (:module "src"
     :components
-    ((:file "plans" :depends-on ("package"))
+    ((:file "plans" :depends-on ("package" "world"))
      (:file "package")
      (:file "world" :depends-on ("package"))
      (:file "process-modules" :depends-on ("package" "world"))

@@ -7,61 +7,6 @@
   "Return the poses before the grasp, at it and after it."
   (list (subseq poses 0 2) (subseq poses 2 3) (subseq poses 3)))
 
-(def-fact-group ts-motions (desig:motion-grounding)
-
-  (<- (desig:motion-grounding ?designator (cram-common-designators:move-base ?pose))
-    (desig:desig-prop ?designator (:type :going))
-    (desig:desig-prop ?designator (:target ?location))
-    (desig:current-designator ?location ?current-location)
-    (desig:designator-groundings ?current-location ?poses)
-    (member ?pose ?poses))
-
-  (<- (desig:motion-grounding ?designator (cram-common-designators:move-head ?kind ?goal))
-    (spec:property ?designator (:type :looking))
-    (once (or (and (spec:property ?designator (:target ?location))
-                   (equal ?kind :pose)
-                   (lisp-fun desig:reference ?location ?goal))
-              (and (spec:property ?designator (:frame ?goal))
-                   (equal ?kind :frame))
-              (and (spec:property ?designator (:direction ?goal))
-                   (equal ?kind :direction)))))
-
-  (<- (desig:motion-grounding ?designator (cram-common-designators:detect ?current-object))
-    (spec:property ?designator (:type :detecting))
-    (spec:property ?designator (:object ?object))
-    (desig:current-designator ?object ?current-object))
-
-  (<- (desig:motion-grounding ?designator (cram-common-designators:move-gripper-joint
-                                           ?action ?gripper))
-    (spec:property ?designator (:type ?type))
-    (member (?type ?action) ((:opening :open) (:closing :close)))
-    (spec:property ?designator (:gripper ?gripper)))
-
-  (<- (desig:motion-grounding ?designator (cram-common-designators:move-gripper-joint
-                                           :grip ?gripper ?effort))
-    (spec:property ?designator (:type :gripping))
-    (spec:property ?designator (:gripper ?gripper))
-    (once (or (spec:property ?designator (:effort ?effort))
-              (equal ?effort nil))))
-
-  (<- (desig:motion-grounding ?designator (cram-common-designators:move-gripper-joint
-                                           ?position ?gripper))
-    (spec:property ?designator (:type :moving-gripper-joint))
-    (spec:property ?designator (:gripper ?gripper))
-    (spec:property ?designator (:joint-angle ?position)))
-
-  (<- (desig:motion-grounding ?designator (cram-common-designators:move-tcp
-                                           ?left-pose ?right-pose ?mode))
-    (spec:property ?designator (:type :moving-tcp))
-    (-> (spec:property ?designator (:left-target ?left-location))
-        (lisp-fun desig:reference ?left-location ?left-pose)
-        (equal ?left-pose nil))
-    (-> (spec:property ?designator (:right-target ?right-location))
-        (lisp-fun desig:reference ?right-location ?right-pose)
-        (equal ?right-pose nil))
-    (once (or (desig:desig-prop ?designator (:collision-mode ?mode))
-              (equal ?mode nil)))))
-
 (def-fact-group ts-actions (desig:action-grounding)
 
   (<- (desig:action-grounding ?action-designator (go-to-target ?location))
