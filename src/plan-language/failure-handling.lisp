@@ -40,13 +40,15 @@ MALFORMED-PLAN-FORM."
     (error 'malformed-plan-form
            :form form :expected "a list of clauses (class ([variable]) form*)")))
 
-(defun failure-handler (clause)
-  "Return a form for the (type . function) of CLAUSE."
+(defun failure-handlers (clause)
+  "Return the list of the forms for the (type . function) of CLAUSE.  There is one for each of the
+classes in an OR, as in CRAM: a failure of several of them is handed to the clause several times."
   (destructuring-bind (type (&optional (variable nil named)) &body handler) clause
     (let ((parameter (if named variable (gensym "FAILURE"))))
-      `(cons ',type (lambda (,parameter)
-                      (declare (ignorable ,parameter))
-                      ,@handler)))))
+      (loop for class in (if (and (consp type) (eq (first type) 'or)) (rest type) (list type))
+            collect `(cons ',class (lambda (,parameter)
+                                     (declare (ignorable ,parameter))
+                                     ,@handler))))))
 
 (defmacro with-failure-handling (&whole form clauses &body body)
   "Evaluate BODY and return its values.  CLAUSES are (type ([variable]) form*): when a condition of
@@ -66,7 +68,7 @@ outer handlers have their turn.  Semantics are CRAM's."
                (declare (ignorable #'retry))
                (list ,@(loop for clause in clauses
                              do (check-failure-clause clause form)
-                             collect (failure-handler clause))))
+                             append (failure-handlers clause))))
              (lambda () ,@body)))))))
 
 ;;; Retry counters

@@ -18,14 +18,6 @@
 
 ;;; Helpers
 
-(defun global-environment-p (environment)
-  "Return true if nothing local to a form is visible in the macro ENVIRONMENT."
-  (or (null environment)
-      (and (null (sb-c::lexenv-vars environment))
-           (null (sb-c::lexenv-funs environment))
-           (null (sb-c::lexenv-blocks environment))
-           (null (sb-c::lexenv-tags environment)))))
-
 (defun helper-definition-p (form environment)
   (and (eq (first form) 'defun)
        (symbolp (second form))

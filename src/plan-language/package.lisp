@@ -51,7 +51,7 @@ perform.")
    ;; time
    #:now #:clock-time #:let-time-pass #:virtual-clock #:executive-clock
    ;; failures
-   #:fail #:on-fail #:*break-on-plan-failures* #:*debug-on-lisp-errors*
+   #:fail #:on-fail #:*break-on-plan-failures* #:*debug-on-lisp-errors* #:rethrow
    #:with-failure-handling #:retry #:call-with-failure-handlers
    #:with-retry-counters #:do-retry #:get-counter #:reset-counter
    #:plan-failure #:simple-plan-failure

@@ -86,45 +86,63 @@ DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
     (append required (mapcar #'first optional) (and rest (list rest))
             (mapcar #'cadar keywords))))
 
-(defun task-form (name lambda-list forms top-level-p)
+(defun ignored-variables (declarations)
+  (loop for (nil . specifiers) in declarations
+        append (loop for (kind . arguments) in specifiers
+                     when (eq kind 'ignore) append arguments)))
+
+(defun task-form (name lambda-list declarations forms top-level-p)
   "Return the form that runs FORMS as the task of the plan NAME."
   (let ((body `(lambda ()
                  (source:with-definition (,name)
-                   (block ,name (with-tags ,@forms))))))
+                   (block ,name (with-tags ,@forms)))))
+        (parameters (set-difference (parameters lambda-list) (ignored-variables declarations))))
     (if top-level-p
         `(call-in-top-level ,body ',name)
         `(call-in-task ',name '(,name) ,body
-                       :code '(,name ,@lambda-list)
-                       :parameters (lambda () (list ,@(parameters lambda-list)))))))
+                       :code '(,name ,lambda-list ,@forms)
+                       :parameters (lambda () (list ,@(reverse parameters)))))))
 
-(defun definition (form name lambda-list body top-level-p)
+(defun global-environment-p (environment)
+  "Return true if nothing local to a form is visible in the macro ENVIRONMENT."
+  (or (null environment)
+      (and (null (sb-c::lexenv-vars environment))
+           (null (sb-c::lexenv-funs environment))
+           (null (sb-c::lexenv-blocks environment))
+           (null (sb-c::lexenv-tags environment)))))
+
+(defun definition (form name lambda-list body top-level-p environment)
+  "Return the expansion of FORM, which defines the plan NAME.  Inside of other forms a plan may refer
+to what is local to them: then it is a function only, whose source would be of no use."
   (unless (and (symbolp name) (listp lambda-list))
     (error 'malformed-plan-form :form form :expected "(name (parameter*) form*)"))
   (multiple-value-bind (forms declarations documentation) (split-body body)
-    (let ((task (task-form name lambda-list forms top-level-p)))
+    (let ((task (task-form name lambda-list declarations forms top-level-p)))
       `(progn
          (defun ,name ,lambda-list
            ,@(and documentation (list documentation))
            ,@declarations
            ,task)
-         (record-plan (make-plan :name ',name :lambda-list ',lambda-list
-                                 :body '(,@declarations ,task)
-                                 :documentation ,documentation :top-level-p ,top-level-p
-                                 :position (source:form-position ',form)))
+         ,@(when (global-environment-p environment)
+             `((record-plan
+                (make-plan :name ',name :lambda-list ',lambda-list
+                           :body '(,@declarations ,task)
+                           :documentation ,documentation :top-level-p ,top-level-p
+                           :position (source:form-position ',form)))))
          ',name))))
 
-(defmacro def-cram-function (&whole form name lambda-list &body body)
+(defmacro def-cram-function (&whole form name lambda-list &body body &environment environment)
   "Define NAME as a plan: a function that other plans call, each time in a task of its own.  Its
 source is kept for FIND-PLAN.  Calling it outside of a top-level signals NOT-IN-TOP-LEVEL."
-  (definition form name lambda-list body nil))
+  (definition form name lambda-list body nil environment))
 
-(defmacro def-plan (&whole form name lambda-list &body body)
+(defmacro def-plan (&whole form name lambda-list &body body &environment environment)
   "The same as DEF-CRAM-FUNCTION."
-  (definition form name lambda-list body nil))
+  (definition form name lambda-list body nil environment))
 
-(defmacro def-top-level-cram-function (&whole form name lambda-list &body body)
+(defmacro def-top-level-cram-function (&whole form name lambda-list &body body &environment environment)
   "Define NAME as a plan that runs in a TOP-LEVEL of its own.  Its source is kept for FIND-PLAN."
-  (definition form name lambda-list body t))
+  (definition form name lambda-list body t environment))
 
 (defun ensure-top-level (function name)
   "Call FUNCTION in a top-level NAME of its own, unless one runs, and return its values."

@@ -67,9 +67,33 @@ pass the tasks first."
   ;; A cluster is a list of (test . handler).  HANDLER-BIND would make it on the stack.
   (list (list (cons (constantly t)
                     (lambda (condition)
-                      (unless (typep condition 'serious-condition)
-                        (with-handlers (outside)
-                          (signal condition))))))))
+                      (unless (typep condition '(or serious-condition policy-condition))
+                        (signal-outside condition outside)))))))
+
+(defun signal-outside (condition handlers)
+  "Signal CONDITION for HANDLERS on the thread of the top-level, whose handlers may leave it.  Of the
+restarts here they see those of the names that Common Lisp has."
+  (let* ((restarts (compute-restarts condition))
+         (choice (call-on-main
+                  (lambda ()
+                    (with-handlers (handlers)
+                      (call-with-restarts-for restarts (lambda () (signal condition) nil)))))))
+    (when choice
+      (apply #'invoke-restart choice))))
+
+(defun call-with-restarts-for (restarts function)
+  "Call FUNCTION.  If a restart is invoked meanwhile that has the name of one of RESTARTS, return
+this and the list of the arguments."
+  (macrolet ((with-names (names form)
+               `(restart-case ,form
+                  ,@(loop for name in names
+                          collect `(,name (&rest arguments)
+                                    :test (lambda (condition)
+                                            (declare (ignore condition))
+                                            (find ',name restarts :key #'restart-name))
+                                    (cons (find ',name restarts :key #'restart-name)
+                                          arguments))))))
+    (with-names (muffle-warning continue use-value store-value) (funcall function))))
 
 (defun call-behind-border (task function)
   "Call FUNCTION for TASK with the dynamic environment of a new task."
