@@ -163,14 +163,14 @@ The environment variable CXX names another compiler than g++."))
                (:require "sb-cltl2"))
   :pathname "src/plan-language/"
   :serial t
-  :components ((:file "package") (:file "conditions") (:file "dynamic-bindings")
+  :components ((:file "package") (:file "conditions") (:file "hooks") (:file "dynamic-bindings")
                (:file "handlers") (:file "tasks") (:file "task-tree") (:file "workers")
                (:file "clock") (:file "scheduler") (:file "failures") (:file "running")
                (:file "requests")
                (:file "top-level") (:file "fluents") (:file "fluent-operators")
                (:file "task-control") (:file "failure-handling") (:file "failure-classes")
                (:file "parallel") (:file "tags") (:file "policies") (:file "plans")
-               (:file "goals") (:file "hooks") (:file "occasions") (:file "process-modules")
+               (:file "goals") (:file "occasions") (:file "process-modules")
                (:file "executive") (:file "load-plan") (:file "indentation")))
 
 (asdf:defsystem "discrepancy-finder/symbolic-execution"

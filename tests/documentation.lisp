@@ -40,7 +40,7 @@
 (defun restart-name-p (symbol)
   "The names of restarts are explained where they are offered."
   (member symbol '(df:continue-search df:next-trace df:accept
-                   df:retry-with-timeout df:treat-as-sat)))
+                   df:retry-with-timeout df:treat-as-sat plan:rethrow)))
 
 (defun documented-p (symbol)
   (or (some (lambda (kind) (documentation symbol kind))
@@ -52,7 +52,7 @@
       ;; Words of designators, such as (a motion ...).
       (member symbol '(plan:action plan:motion plan:object plan:location plan:human))
       ;; Words of paths in the task tree.
-      (member symbol '(plan:tagged plan:goal plan:process-module))
+      (member symbol '(plan:tagged plan:goal plan:?designator plan:process-module))
       ;; The role that designators are resolved in where none is named.
       (eq symbol 'desig:default-role)))
 

@@ -157,7 +157,7 @@
 
 ;;; Facts and queries
 
-(prolog:def-fact-group tests-family (likes)
+(prolog:def-fact-group tests-family (likes tests-without-facts)
   (prolog:<- (parent tom bob))
   (prolog:<- (parent bob ann))
   (prolog:<- (parent bob pat))
@@ -243,7 +243,9 @@
     (fails '(and (parent tom ?x) (no-such-predicate ?x 1))))
   (warns-with (prolog:unknown-predicate "parent with 3 arguments" "only with 2")
     (fails '(parent tom bob ann)))
-  (is (null (warnings-of 'warning (lambda () (fails '(likes bob ?x)))))))
+  (is (null (warnings-of 'warning (lambda ()
+                                    (fails '(likes bob ?x))
+                                    (fails '(tests-without-facts ?x)))))))
 
 (test malformed-goals
   (signals-with (prolog:malformed-goal "42" "no list") (prolog:prolog '(and 42)))

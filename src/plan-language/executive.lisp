@@ -79,15 +79,24 @@ process module fail with.")
 
 ;;; Goals of actions
 
+(defun occasion-name (name)
+  "Return the occasion that NAME means: designators make keywords of what is written in them."
+  (if (keywordp name)
+      (multiple-value-bind (symbol status)
+          (find-symbol (symbol-name name) '#:discrepancy-finder.plan-language)
+        (and (eq status :external) symbol))
+      (and (symbolp name) name)))
+
 (defun goal-occasion (designator)
-  "Return the occasion that the action DESIGNATOR has for a goal, or NIL."
-  (let ((goal (and (typep designator 'action-designator) (desig-prop-value designator :goal))))
-    (when (and goal (not (consp goal)))
-      (fail 'designator-goal-parsing-failure
-            :designator designator
-            :format-control "The goal ~s of ~a is no occasion."
-            :format-arguments (list goal designator)))
-    goal))
+  "Return the occasion that the action DESIGNATOR has for a goal, or NIL.  Signals
+DESIGNATOR-GOAL-PARSING-FAILURE for what is none."
+  (let* ((goal (and (typep designator 'action-designator) (desig-prop-value designator :goal)))
+         (name (and (consp goal) (occasion-name (first goal)))))
+    (cond (name (cons name (rest goal)))
+          (goal (fail 'designator-goal-parsing-failure
+                      :designator designator
+                      :format-control "The goal ~s of ~a is no occasion."
+                      :format-arguments (list goal designator))))))
 
 (defun call-with-goal (designator function)
   "Call FUNCTION, which performs DESIGNATOR.  If this has a goal that holds already, warn and return

@@ -82,9 +82,8 @@ restart to go on.  T stands for all, NIL for none.")
       (symbol (apply #'make-condition datum (rest arguments)))
       (condition datum))))
 
-(defgeneric on-fail (failure)
-  (:documentation "Called with each FAILURE that FAIL signals, before it does.")
-  (:method (failure) (declare (ignore failure))))
+(define-hook on-fail (failure)
+  "Called with each FAILURE that FAIL signals, before it does.")
 
 (defun fail (&rest arguments)
   "Signal a plan failure; never returns.  Without ARGUMENTS it is a SIMPLE-PLAN-FAILURE, with a

@@ -38,7 +38,7 @@ perform.")
    #:on-suspension #:retry-after-suspension #:without-scheduling #:with-scheduling
    #:define-task-variable #:call-in-task
    ;; the task tree, and what its paths consist of
-   #:tagged #:goal #:process-module
+   #:tagged #:goal #:?designator #:process-module
    #:with-task-tree-node #:task-path #:current-path #:get-top-level-task-tree
    #:task-tree-node #:task-tree-node-path #:task-tree-node-parent #:task-tree-node-children
    #:task-tree-node-code #:task-tree-node-parameters #:task-tree-node-task

@@ -96,12 +96,14 @@ DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
   (let ((body `(lambda ()
                  (source:with-definition (,name)
                    (block ,name (with-tags ,@forms)))))
-        (parameters (set-difference (parameters lambda-list) (ignored-variables declarations))))
+        (parameters (remove-if (lambda (parameter)
+                                 (member parameter (ignored-variables declarations)))
+                               (parameters lambda-list))))
     (if top-level-p
         `(call-in-top-level ,body ',name)
         `(call-in-task ',name '(,name) ,body
                        :code '(,name ,lambda-list ,@forms)
-                       :parameters (lambda () (list ,@(reverse parameters)))))))
+                       :parameters (lambda () (list ,@parameters))))))
 
 (defun global-environment-p (environment)
   "Return true if nothing local to a form is visible in the macro ENVIRONMENT."
@@ -112,8 +114,8 @@ DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
            (null (sb-c::lexenv-tags environment)))))
 
 (defun definition (form name lambda-list body top-level-p environment)
-  "Return the expansion of FORM, which defines the plan NAME.  Inside of other forms a plan may refer
-to what is local to them: then it is a function only, whose source would be of no use."
+  "Return the expansion of FORM, which defines the plan NAME.  Inside of other forms a plan may
+refer to what is local to them: then it is a function only, whose source would be of no use."
   (unless (and (symbolp name) (listp lambda-list))
     (error 'malformed-plan-form :form form :expected "(name (parameter*) form*)"))
   (multiple-value-bind (forms declarations documentation) (split-body body)
@@ -140,7 +142,8 @@ source is kept for FIND-PLAN.  Calling it outside of a top-level signals NOT-IN-
   "The same as DEF-CRAM-FUNCTION."
   (definition form name lambda-list body nil environment))
 
-(defmacro def-top-level-cram-function (&whole form name lambda-list &body body &environment environment)
+(defmacro def-top-level-cram-function (&whole form name lambda-list &body body
+                                       &environment environment)
   "Define NAME as a plan that runs in a TOP-LEVEL of its own.  Its source is kept for FIND-PLAN."
   (definition form name lambda-list body t environment))
 

@@ -71,8 +71,8 @@ pass the tasks first."
                         (signal-outside condition outside)))))))
 
 (defun signal-outside (condition handlers)
-  "Signal CONDITION for HANDLERS on the thread of the top-level, whose handlers may leave it.  Of the
-restarts here they see those of the names that Common Lisp has."
+  "Signal CONDITION for HANDLERS on the thread of the top-level, whose handlers may leave it.  Of
+the restarts here they see those of the names that Common Lisp has."
   (let* ((restarts (compute-restarts condition))
          (choice (call-on-main
                   (lambda ()

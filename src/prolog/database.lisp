@@ -83,11 +83,6 @@ faster.")
       (setf (gethash name *predicates*)
             (setf (get name '%predicate) (make-predicate name)))))
 
-(defun predicate-known-p (predicate)
-  (or (predicate-control predicate)
-      (predicate-sections predicate)
-      (extendable-p (predicate-name predicate))))
-
 (defun extendable-p (name)
   "Return true if a fact group lists NAME as a predicate that others may extend."
   (sb-ext:with-locked-hash-table (*fact-groups*)

@@ -62,6 +62,13 @@
         (:tag toggling
           (perform (an action (type toggling-carefully) (lamp ?lamp))))))))
 
+(defun indifferent (?flag)
+  (declare (ignore ?flag))
+  :b)
+
+(def-top-level-cram-function indifferent-plan (?flag)
+  (toggle (indifferent ?flag)))
+
 (def-fact-group lamp-actions (action-grounding)
   (<- (action-grounding ?designator (toggle-carefully ?lamp :retries ?retries))
     (desig-prop ?designator (:type :toggling-carefully))
