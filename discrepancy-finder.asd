@@ -171,7 +171,8 @@ The environment variable CXX names another compiler than g++."))
                (:file "task-control") (:file "failure-handling") (:file "failure-classes")
                (:file "parallel") (:file "tags") (:file "policies") (:file "plans")
                (:file "goals") (:file "occasions") (:file "process-modules")
-               (:file "executive") (:file "load-plan") (:file "indentation")))
+               (:file "executive") (:file "prolog-names") (:file "load-plan")
+               (:file "indentation")))
 
 (asdf:defsystem "discrepancy-finder/symbolic-execution"
   :description "Plans on all inputs at once, along the paths that a theory allows."
@@ -227,7 +228,8 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "run") (:file "fixtures")
                (:file "geometry") (:file "source") (:file "json") (:file "z3") (:file "z3-life")
                (:file "event-calculus")
-               (:file "prolog") (:file "designators") (:file "designators-resolved")
+               (:file "prolog") (:file "prolog-lazy-lists") (:file "prolog-predicates")
+               (:file "designators") (:file "designators-resolved")
                (:file "transforms") (:file "stamped-poses") (:file "roslisp")
                (:file "plan-language")
                (:module "symbolic-execution"

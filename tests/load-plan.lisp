@@ -130,12 +130,12 @@
 (defsystem plan-system-1
   :depends-on (alexandria (:version \"alexandria\" \"0\") (:feature :no-such-feature no-such-thing))
   :components ((:module \"parts\"
-                :serial t
-                :components ((:file \"package\") (:static-file \"data.lisp\")
-                             (:file \"late\" :depends-on (\"early\")) (:file \"early\")
+                :components ((:static-file \"data.lisp\")
+                             (:file \"late\" :depends-on (\"early\"))
+                             (:file \"early\" :depends-on (\"package\")) (:file \"package\")
                              (:file \"never\" :if-feature :no-such-feature)))
                (:file \"last\" :depends-on (\"parts\"))))"
-    "parts/package.lisp" "(defpackage plan-system-1 (:use :cl :discrepancy-finder.cpl)
+    "parts/package.lisp" "(defpackage plan-system-1 (:use :discrepancy-finder.cpl)
   (:export #:order))
 (in-package plan-system-1)
 (defparameter order '())"

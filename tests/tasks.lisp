@@ -110,7 +110,7 @@
                                    (plan:par (unwind-protect (plan:wait-for (plan:make-fluent))
                                                (note-event :inner))
                                              1)
-                                (note-event :outer))))))))
+                                (note-event :outer)))))))
       "in the order in which a deadlock ends tasks")
   (is (= 0 (busy-threads))))
 

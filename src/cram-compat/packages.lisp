@@ -1,8 +1,10 @@
 ;;;; Making the packages of the table, where CRAM is absent.
 ;;;;
-;;;; Loading this file defines each package of the table, unless a package of its name or one of its
-;;;; nicknames is there already, or ASDF finds CRAM's own system for it: then that one is left alone,
-;;;; and one sentence says so.  Loading it again changes nothing.  COMPAT-REPORT tells what was done.
+;;;; Loading this file defines the packages of the table.  Where CRAM itself is there, that is its
+;;;; package cram-language or the system of this name, it defines none: half of one plan language and
+;;;; half of another are no good.  Else it leaves alone what is there of a single package: one of its
+;;;; name or one of its nicknames, or CRAM's own system for it that ASDF finds.  One sentence says
+;;;; so.  Loading it again changes nothing.  COMPAT-REPORT tells what was done.
 
 (in-package #:discrepancy-finder.cram-compat)
 
@@ -46,34 +48,44 @@
         (setf (documentation package t) "The package in which users of CRAM type.")
         (push package *defined-packages*)))))
 
+(defun original (entry)
+  "Return the package or the file of CRAM's, or of somebody else's, for which ENTRY would be a
+substitute, or NIL."
+  (or (foreign-package entry)
+      (system-file (compat-package-system entry))))
+
 (defun define-packages ()
   "Define the packages of the table that are absent; return what COMPAT-REPORT is to return."
-  (prog1 (loop for entry in (compat-packages)
-               for name = (compat-package-name entry)
-               for package = (foreign-package entry)
-               for file = (and (null package) (system-file (compat-package-system entry)))
-               collect (cond (package (list name :left-alone package))
-                             (file (list name :left-alone file))
-                             (t (list name :defined (define-package entry)))))
-    (define-user-package)))
+  (let ((cram (original (find "CRAM-LANGUAGE" (compat-packages)
+                              :key #'compat-package-name :test #'string=))))
+    (prog1 (loop for entry in (compat-packages)
+                 for name = (compat-package-name entry)
+                 for original = (or cram (original entry))
+                 collect (if original
+                             (list name :left-alone original)
+                             (list name :defined (define-package entry))))
+      (define-user-package))))
 
 (defun compat-report ()
-  "Return what became of the packages of CRAM, a list of (name :defined package), of (name
-:left-alone package) where a package of that name or nickname existed before, and of (name
-:left-alone pathname) where ASDF finds CRAM's own system, whose file that is."
+  "Return what became of the packages of CRAM: a list of (name :defined package) and of (name
+:left-alone original), the original being the package that existed before or the file of the ASDF
+system because of which it was left alone."
   (copy-tree *report*))
 
-(defun left-alone-sentence (report)
+(defun report-sentence (report)
   "Return a sentence about the packages that REPORT says were left alone, or NIL if none was."
   (let ((names (loop for (name what) in report
                      when (eq what :left-alone) collect (string-downcase name))))
-    (when names
-      (format nil "discrepancy-finder/cram-compat leaves alone what is there of CRAM itself: ~
-                   ~{~a~^, ~}." names))))
+    (cond ((null names) nil)
+          ((= (length names) (length report))
+           "CRAM itself is here: discrepancy-finder/cram-compat defines none of its packages.")
+          (t (format nil "discrepancy-finder/cram-compat leaves alone what is here already: ~
+                          ~{~a~^, ~}."
+                     names)))))
 
 (let ((report (let ((*package* (find-package '#:keyword)))
                 ;; FIND-PACKAGE sees the local nicknames of the current package; KEYWORD has none.
                 (define-packages))))
   (unless (equal report *report*)
-    (format *error-output* "~@[~&~a~%~]" (left-alone-sentence report)))
+    (format *error-output* "~@[~&~a~%~]" (report-sentence report)))
   (setf *report* report))

@@ -52,17 +52,23 @@ record their sources and definitions of packages see global names of packages on
 (defun system-error (name reason)
   (error 'source:source-error :file name :reason reason))
 
+(defun asdf-reason (condition)
+  "Return what CONDITION, signaled by ASDF, says is wrong, as one line."
+  (typecase condition
+    (asdf:load-system-definition-error
+     (source:condition-sentence (asdf/find-system:error-condition condition)))
+    (asdf:missing-dependency
+     (format nil "~a depends on ~(~a~), which ASDF does not find"
+             (asdf:component-name (asdf/find-component:missing-required-by condition))
+             (asdf/find-component:missing-requires condition)))
+    (t (source:condition-sentence condition))))
+
 (defun call-explaining-asdf (name function)
   "Call FUNCTION; an error that does not say itself where it is becomes a SOURCE-ERROR for the system
 or file NAME."
   (handler-bind ((error (lambda (condition)
                           (unless (source:self-explaining-p condition)
-                            (system-error
-                             name
-                             (source:condition-sentence
-                              (if (typep condition 'asdf:load-system-definition-error)
-                                  (asdf/find-system:error-condition condition)
-                                  condition)))))))
+                            (system-error name (asdf-reason condition))))))
     (let ((*compile-verbose* nil) (*compile-print* nil) (*load-verbose* nil))
       (funcall function))))
 

@@ -119,7 +119,7 @@
  10 not-underground "Places above the floor.")
 
 (defun not-underground (location-designator pose)
-  (declare (ignore location-designator))
-  (if (minusp (cl-transforms:z (cl-transforms:origin pose)))
+  (if (and (desig:desig-prop-value location-designator :table)
+           (minusp (cl-transforms:z (cl-transforms:origin pose))))
       :reject
       :unknown))
