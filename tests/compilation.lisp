@@ -12,3 +12,9 @@
     (is (null (and (uiop:file-exists-p log)
                    (find-if (lambda (line) (search "WARNING" line))
                             (uiop:read-file-lines log)))))))
+
+(test plans-load-without-a-warning
+  (dolist (file (uiop:directory-files (root-file "plans/") "*.lisp"))
+    (let ((text (with-output-to-string (*error-output*)
+                  (is (not (null (plan:load-plan file))) "~a defines no plan" file))))
+      (is (string= "" text) "~a: ~a" file text))))

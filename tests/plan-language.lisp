@@ -94,7 +94,7 @@
                         (plan:plan-failure (found) found))))))
 
 (test retry-outside-of-a-handler-is-an-error
-  (signals plan:malformed-plan-form (funcall 'plan:retry))
+  (signals plan:malformed-plan-form (apply 'plan:retry '()))
   (signals-with (plan:malformed-plan-form "nowhere" "with-retry-counters")
     (macroexpand-1 '(plan:do-retry nowhere (plan:retry))))
   (signals-with (plan:malformed-plan-form "list of clauses")

@@ -102,7 +102,7 @@
       (is (equal '(("the top-level" . "the fluent door")) (plan:deadlock-waiting condition))))))
 
 (test a-deadlock-runs-cleanup-forms
-  (is (equal '(:inner :outer)
+  (is (equal '(:outer :inner)
              (events-of (lambda ()
                           (signals plan:deadlock
                             (plan:top-level
@@ -111,7 +111,7 @@
                                                (note-event :inner))
                                              1)
                                 (note-event :outer)))))))
-      "in the order in which a deadlock ends tasks")
+      "the cleanup forms of a task before those of its children, as when it evaporates")
   (is (= 0 (busy-threads))))
 
 ;;; Many and deep
@@ -201,7 +201,7 @@
 ;;; Threads
 
 (test two-top-levels-in-two-threads
-  (flet ((run (seed)
+  (flet ((log-of (seed)
            (let ((plan:*scheduling-seed* seed) (log '()))
              (plan:top-level
                (plan:par-loop (x '(1 2 3 4))
@@ -209,10 +209,10 @@
                    (plan:sleep* (/ x 10))
                    (push (list x i (plan:now)) log))))
              log)))
-    (let ((expected (list (run 0) (run 5))))
+    (let ((expected (list (log-of 0) (log-of 5))))
       (loop repeat 20
-            do (let ((threads (list (sb-thread:make-thread #'run :arguments (list 0))
-                                    (sb-thread:make-thread #'run :arguments (list 5)))))
+            do (let ((threads (list (sb-thread:make-thread #'log-of :arguments (list 0))
+                                    (sb-thread:make-thread #'log-of :arguments (list 5)))))
                  (is (equal expected (mapcar #'sb-thread:join-thread threads))))))))
 
 (test a-top-level-in-a-thread-that-a-plan-starts

@@ -77,6 +77,15 @@ happen any more."))
   (:documentation "Signaled by a top-level that was left by a jump out of it, while a cleanup form
 of the plan did what can be done only as long as the plan runs."))
 
+(define-condition fluent-not-settable (plan-error)
+  ((fluent :initarg :fluent :reader fluent-not-settable-fluent
+           :documentation "What was to be set."))
+  (:report (lambda (condition stream)
+             (format stream "~a has no value that can be set."
+                     (short-form (fluent-not-settable-fluent condition)))))
+  (:documentation "Signaled when a value is set of what is computed from other fluents, or no
+fluent."))
+
 (define-condition wait-for-nil (plan-error)
   ()
   (:report "wait-for called with nil argument.")

@@ -120,7 +120,11 @@ does not pulse it.  CLASS is VALUE-FLUENT or a subclass."
   fluent)
 
 (defgeneric (setf value) (new-value fluent)
-  (:documentation "Set FLUENT to NEW-VALUE and pulse it, if that is another value than before.")
+  (:documentation "Set FLUENT to NEW-VALUE and pulse it, if that is another value than before.
+Signals FLUENT-NOT-SETTABLE for a fluent that is computed from others.")
+  (:method (new-value thing)
+    (declare (ignore new-value))
+    (error 'fluent-not-settable :fluent thing))
   (:method (new-value (fluent value-fluent))
     (unless (funcall (fluent-test fluent) (%value fluent) new-value)
       (setf (%value fluent) new-value)

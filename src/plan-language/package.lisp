@@ -126,6 +126,7 @@ perform.")
    #:malformed-plan-form-plan
    #:misplaced-retry #:misplaced-retry-form
    #:deadlock #:deadlock-waiting #:top-level-interrupted #:wait-for-nil
+   #:fluent-not-settable #:fluent-not-settable-fluent
    #:task-left-by-jump #:task-left-by-jump-task #:task-not-found #:task-not-found-path
    #:process-module-not-found #:process-module-not-found-name
    #:no-goal-fits #:no-goal-fits-name #:no-goal-fits-arguments
@@ -150,7 +151,8 @@ fluents, and the plan language.  It corresponds to CRAM's package CPL.")
   (:documentation "The package in which plans and domains are read and in which users work.")
   (:use #:discrepancy-finder.cpl #:discrepancy-finder.geometry)
   (:import-from #:discrepancy-finder.prolog
-                #:prolog #:def-fact-group #:<- #:lisp-fun #:lisp-pred #:bound #:once #:cut)
+                #:prolog #:def-fact-group #:<- #:lisp-fun #:lisp-pred #:lisp-type
+                #:bound #:ground #:once #:cut #:== #:-> #:forall #:findall #:setof #:instance-of)
   (:import-from #:discrepancy-finder.designators
                 #:desig-prop #:action-grounding #:motion-grounding #:location-grounding)
   (:local-nicknames (#:cpl #:discrepancy-finder.cpl)

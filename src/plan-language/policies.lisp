@@ -40,8 +40,8 @@ form*)."
       (unless (and (consp property) (member (first property)
                                              '(:init :check :recover :clean-up)))
         (error 'malformed-plan-form
-               :form form :expected "parts (:init ...), (:check ...), (:recover ...), ~
-                                     (:clean-up ...)")))
+               :form form
+               :expected "(:init form*), (:check form*), (:recover form*) or (:clean-up form*)")))
     `(%make-policy
       :name ',name :documentation ,documentation
       ,@(loop for (part . forms) in properties
