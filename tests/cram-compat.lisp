@@ -1,6 +1,6 @@
 ;;;; CRAM's packages, and plan files that were written for them.
 ;;;;
-;;;; The files below plan-files/ are written in the manner of CRAM's own; they are loaded as they are.
+;;;; The files below plan-files/ are written in the manner of CRAM's own and loaded as they are.
 
 (in-package #:discrepancy-finder.tests)
 
@@ -183,8 +183,8 @@ them as :LOAD."
                 (let ((*error-output* (make-broadcast-stream)))
                   (plan:load-plan (plan-file "table-setting/table-setting-plans.asd"))))
     ;; All locations would be tried with them.
-    (eval `(desig:delete-location-generator-function ,(the-symbol 'table-places 'ts-plans)))
-    (eval `(desig:delete-location-validation-function ,(the-symbol 'not-underground 'ts-plans)))))
+    (desig:delete-location-generator-function (the-symbol 'table-places 'ts-plans))
+    (desig:delete-location-validation-function (the-symbol 'not-underground 'ts-plans))))
 
 (defmacro with-table-setting ((plans) &body body)
   `(call-with-table-setting (lambda (,plans) (declare (ignorable ,plans)) ,@body)))

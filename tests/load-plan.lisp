@@ -6,7 +6,7 @@
 (in-suite load-plan)
 
 (defmacro with-plan-files ((folder &rest names-and-texts) &body body)
-  "Evaluate BODY with FOLDER bound to the name of a new folder that holds files with names and texts."
+  "Evaluate BODY with FOLDER bound to the name of a new folder of files with names and texts."
   `(call-with-plan-files (lambda (,folder) ,@body) (list ,@names-and-texts)))
 
 (defun call-with-plan-files (function names-and-texts)

@@ -1,4 +1,5 @@
-;;;; The packages of poses and of ROS: cl-transforms, cl-transforms-stamped, cl-tf, cram-tf, roslisp.
+;;;; The packages of poses and of ROS: cl-transforms, cl-transforms-stamped, cl-tf, cram-tf,
+;;;; roslisp, roslisp-utilities.
 ;;;;
 ;;;; CL-TRANSFORMS-STAMPED and CL-TF pass on all of CL-TRANSFORMS, so that a plan may take a vector
 ;;;; from any of them.

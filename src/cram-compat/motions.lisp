@@ -1,8 +1,8 @@
 ;;;; The motions of CRAM's package cram-common-designators: what each means to a process module.
 ;;;;
-;;;; (a motion (type going) (target ?location)) is resolved to (move-base pose), and so on; a process
-;;;; module takes the list apart.  A file of plans can add facts of MOTION-GROUNDING for motions of
-;;;; its own.
+;;;; (a motion (type going) (target ?location)) is resolved to (move-base pose), and so on; a
+;;;; process module takes the list apart.  A file of plans can add facts of MOTION-GROUNDING for
+;;;; motions of its own.
 
 (in-package #:discrepancy-finder.cram-compat)
 

@@ -1,8 +1,8 @@
 ;;;; Projection environments under CRAM's names.
 ;;;;
 ;;;; In CRAM a projection environment says which process modules take the place of the robot's and
-;;;; which special variables get other values meanwhile.  That is all here, too: the world is that of
-;;;; the executive, if one is there.
+;;;; which special variables get other values meanwhile.  That is all here, too: the world is that
+;;;; of the executive, if one is there.
 
 (in-package #:discrepancy-finder.cram-compat)
 

@@ -98,14 +98,12 @@ Return what it returns."
   (bound-slots 0))
 
 (defun call-with-captured (bindings function)
-  "Call FUNCTION in this thread, which has no bindings of its own, with BINDINGS in force."
+  "Call FUNCTION with BINDINGS in force in this thread, which has no bindings of its own."
   (declare (function function))
-  (let ((saved (loop for (index) in bindings
-                     collect (sb-sys:sap-ref-word (thread-slots) index))))
-    (unwind-protect
-         (progn
-           (loop for (index . value) in bindings
-                 do (setf (sb-sys:sap-ref-lispobj (thread-slots) index) value))
-           (funcall function))
-      (loop for (index) in bindings for word in saved
-            do (setf (sb-sys:sap-ref-word (thread-slots) index) word)))))
+  (unwind-protect
+       (progn
+         (loop for (index . value) in bindings
+               do (setf (sb-sys:sap-ref-lispobj (thread-slots) index) value))
+         (funcall function))
+    (loop for (index) in bindings
+          do (setf (sb-sys:sap-ref-word (thread-slots) index) sb-vm:no-tls-value-marker))))

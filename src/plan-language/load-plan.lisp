@@ -1,15 +1,15 @@
 ;;;; Loading plans: a file, or an ASDF system of such files, as it is.
 ;;;;
 ;;;; A plan file is a Lisp file: it may define packages, facts, methods, functions, whatever.  Each
-;;;; of its forms is read with its position and evaluated before the next is read, so that plans know
-;;;; where they stand and the symbolic evaluator has their sources.
+;;;; of its forms is read with its position and evaluated before the next is read, so that plans
+;;;; know where they stand and the symbolic evaluator has their sources.
 ;;;;
 ;;;; HELPERS, functions that a plan file defines by DEFUN, are evaluated symbolically as well; their
 ;;;; sources are noted by *MACROEXPAND-HOOK*.  It sees each DEFUN that is expanded: at top level, in
 ;;;; PROGN and EVAL-WHEN, and those that macros of the file expand into, which an inspection of the
 ;;;; forms would miss.  Its environment tells which ones close over something local: these and
-;;;; methods stay compiled functions for the evaluator.  A DEFUN of a name that is no symbol, such as
-;;;; (setf place), stays compiled, too.
+;;;; methods, goals and process modules stay compiled functions for the evaluator.  So does what has
+;;;; no symbol for a name, such as (setf place).
 ;;;;
 ;;;; Of a system, ASDF loads what it depends on and says which files it has in which order.  These
 ;;;; files are loaded as sources: compiled files have no positions.
@@ -34,8 +34,8 @@ record their sources and definitions of packages see global names of packages on
                `(progn ,expansion
                        (record-helper ',name ',lambda-list ',body
                                       ,(source:form-position form)))))
-            ;; What a package of the file uses as CPL is CRAM's; that this is also a nickname local to
-            ;; the package in which the file begins to be read is not meant.
+            ;; What a package of the file uses as CPL is CRAM's; that this is also a nickname local
+            ;; to the package in which the file begins to be read is not meant.
             ((eq (first form) 'defpackage)
              `(let ((*package* (find-package '#:keyword))) ,expansion))
             (t expansion)))))
@@ -64,8 +64,8 @@ record their sources and definitions of packages see global names of packages on
     (t (source:condition-sentence condition))))
 
 (defun call-explaining-asdf (name function)
-  "Call FUNCTION; an error that does not say itself where it is becomes a SOURCE-ERROR for the system
-or file NAME."
+  "Call FUNCTION; an error that does not say itself where it is becomes a SOURCE-ERROR for the
+system or file NAME."
   (handler-bind ((error (lambda (condition)
                           (unless (source:self-explaining-p condition)
                             (system-error name (asdf-reason condition))))))

@@ -7,10 +7,12 @@
 
 (in-package #:discrepancy-finder.plan-language)
 
-(defmacro :tag (&whole form name &body body)
-  "Inside of WITH-TAGS, evaluate BODY in a task that NAME refers to, and return its values."
-  (declare (ignore name body))
-  (error 'malformed-plan-form :form form :expected "an enclosing with-tags"))
+;; Inside of WITH-TAGS there is a local macro of this name.  CRAM defines it, too.
+(unless (macro-function :tag)
+  (setf (macro-function :tag)
+        (lambda (form environment)
+          (error 'malformed-plan-form :form form :expected "an enclosing with-tags"
+                                      :plan (source:enclosing-definition environment)))))
 
 (defvar *tags* '()
   "The names that a body, while it is expanded, has for tasks.")

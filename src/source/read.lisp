@@ -171,8 +171,8 @@ file and line in front of it.")
                    (t (condition-sentence condition)))))
 
 (defun call-with-warning-lines (function)
-  "Call FUNCTION with a function that it calls with the file and the line, or NIL, that it is at.  Of
-what the compiler says meanwhile the warnings are printed, a line each."
+  "Call FUNCTION with a function that it calls with the file and the line, or NIL, that it is at.
+Of what the compiler says meanwhile the warnings are printed, a line each."
   (let ((errors *error-output*)
         (file nil)
         (line nil))
@@ -197,9 +197,9 @@ where it is."
       (eval form))))
 
 (defun load-sources (files name &key (package *package*))
-  "Load FILES one after the other, as LOAD-SOURCE does each, and return the list of their true names.
-Functions that any of the files defines are not undefined in another one.  NAME is what a warning
-names that concerns them as a whole."
+  "Load FILES one after the other, as LOAD-SOURCE does each, and return the list of their true
+names.  Functions that any of the files defines are not undefined in another one.  NAME is what a
+warning names that concerns them as a whole.  Signals SOURCE-ERROR."
   (let ((files (mapcar #'native-path files)))
     (call-with-warning-lines
      (lambda (note-place)
