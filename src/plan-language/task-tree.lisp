@@ -109,7 +109,7 @@ DEF-TOP-LEVEL-CRAM-FUNCTION have their own name."
 (defun call-in-task (name head function &key code parameters)
   "Call FUNCTION as the body of a new task of the current one, and return its values or fail as it
 does.  NAME says what it is, HEAD is its place in the task tree.  Signals NOT-IN-TOP-LEVEL."
-  (need-task (or code head))
+  (need-task head)
   (run-child (new-child name head :code code :parameters parameters) function))
 
 (defmacro with-task-tree-node ((&key (path-part '(quote anonymous)) (name "WITH-TASK-TREE-NODE")
