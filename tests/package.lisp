@@ -15,6 +15,7 @@
                     (#:plan #:discrepancy-finder.plan-language)
                     (#:symbolic #:discrepancy-finder.symbolic-execution)
                     (#:bullet #:discrepancy-finder.bullet)
+                    (#:compat #:discrepancy-finder.cram-compat)
                     (#:projection #:discrepancy-finder.projection)
                     (#:discrepancy #:discrepancy-finder.discrepancy)
                     (#:df #:discrepancy-finder))

@@ -52,7 +52,7 @@
 (define-compat-package #:cram-executive (#:exe) "cram-executive"
   "Performing designators."
   (#:discrepancy-finder.plan-language
-   #:perform #:try-reference-designator
+   #:perform #:generic-perform #:try-reference-designator
    #:designator-reference-failure #:designator-reference-failure-result
    #:designator-goal-parsing-failure))
 

@@ -2,8 +2,8 @@
 ;;;;
 ;;;; Loading this file defines the packages of the table.  Where CRAM itself is there, that is its
 ;;;; package cram-language or the system of this name, it defines none: half of one plan language
-;;;; and half of another are no good.  Else it leaves alone what is there of a single package: one of
-;;;; its name or one of its nicknames, or CRAM's own system for it that ASDF finds.  One sentence
+;;;; and half of another are no good.  Else it leaves alone what is there of a single package: one
+;;;; of its name or one of its nicknames, or CRAM's own system for it that ASDF finds.  One sentence
 ;;;; says so.  Loading it again changes nothing.  COMPAT-REPORT tells what was done.
 
 (in-package #:discrepancy-finder.cram-compat)

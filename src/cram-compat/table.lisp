@@ -4,9 +4,9 @@
 ;;;; Each DEFINE-COMPAT-PACKAGE gives such a package's name, its nicknames, the ASDF system in
 ;;;; which CRAM has it, and its symbols: a list of groups, each the name of a package of ours and
 ;;;; names of symbols in it.  Symbols are not copied: cpl:seq IS the SEQ of our plan language.  A
-;;;; name that our package does not export is an error when its entry is compiled.  The entries stand
-;;;; in language-names.lisp, executive-names.lisp and geometry-names.lisp; packages.lisp makes the
-;;;; packages.
+;;;; name that our package does not export is an error when its entry is compiled.  The entries
+;;;; stand in language-names.lisp, executive-names.lisp and geometry-names.lisp; packages.lisp makes
+;;;; the packages.
 ;;;;
 ;;;; No two packages have different symbols of the same name, so that a package can use any of them
 ;;;; together; only the operators that know fluents differ between cram-language and common-lisp.

@@ -154,7 +154,7 @@ NIL, and the result."
                                      (plan:perform-with projection designator position)))))
           (attempt (lambda ()
                      (plan:with-executive (projection)
-                       (plan:perform-by-reference designator))))))))
+                       (plan:generic-perform designator))))))))
 
 (defmethod plan:executive-clock ((monitor monitor))
   (plan:executive-clock (monitor-projection monitor)))

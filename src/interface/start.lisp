@@ -5,8 +5,10 @@
 (asdf:load-asd (merge-pathnames "../../discrepancy-finder.asd" *load-truename*))
 
 (defun build-executable ()
-  "Load the system and save it as build/discrepancy-finder.new."
-  (handler-case (asdf:load-system "discrepancy-finder")
+  "Load the system, with CRAM's packages for plan files that use them, and save it as
+build/discrepancy-finder.new."
+  (handler-case (progn (asdf:load-system "discrepancy-finder")
+                       (asdf:load-system "discrepancy-finder/cram-compat"))
     (error (condition)
       (format *error-output* "~&~a~%" condition)
       (sb-ext:exit :code 2 :abort t)))

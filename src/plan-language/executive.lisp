@@ -3,7 +3,7 @@
 ;;;; PERFORM hands a designator to the executive of the plan that runs, in a task of its own.  An
 ;;;; executive is any object with a method on PERFORM-WITH: a projection world executes motions, a
 ;;;; symbolic executive consults a theory.  So one plan source serves both.  What an executive does
-;;;; not know, and what is performed without one, goes CRAM's way (PERFORM-BY-REFERENCE): an action
+;;;; not know, and what is performed without one, goes CRAM's way (GENERIC-PERFORM): an action
 ;;;; designator is resolved to a plan, which is called, a motion designator is given to a process
 ;;;; module that runs.
 
@@ -15,7 +15,7 @@ POSITION is the source position of the perform form, or NIL where unknown.  Sign
 if that fails, DESIGNATOR-NOT-UNDERSTOOD if EXECUTIVE cannot interpret DESIGNATOR.")
   (:method (executive designator position)
     (declare (ignore executive position))
-    (perform-by-reference designator)))
+    (generic-perform designator)))
 
 (defgeneric call-plan-function (executive name arguments)
   (:documentation "Call the plan named NAME with the list ARGUMENTS, for EXECUTIVE.")
@@ -45,7 +45,7 @@ if that fails, DESIGNATOR-NOT-UNDERSTOOD if EXECUTIVE cannot interpret DESIGNATO
       (reference-failure designator "~a" condition))))
 
 (defun plan-known-p (designator)
-  "Return true if DESIGNATOR can be performed by PERFORM-BY-REFERENCE: if it is an action that is
+  "Return true if DESIGNATOR can be performed by GENERIC-PERFORM: if it is an action that is
 resolved to a call of a plan, or a motion for which a process module runs."
   (typecase designator
     (action-designator
@@ -66,7 +66,7 @@ resolved to a call of a plan, or a motion for which a process module runs."
         (fail "~a is resolved to a call of ~(~s~), which is no function." designator name))
       (call-plan-function *executive* name arguments))))
 
-(defgeneric perform-by-reference (designator)
+(defgeneric generic-perform (designator)
   (:documentation "Perform DESIGNATOR as CRAM does: an action by its plan, a motion by a process
 module that runs.  Signals DESIGNATOR-REFERENCE-FAILURE, SIMPLE-PLAN-FAILURE and what plan or
 process module fail with.")

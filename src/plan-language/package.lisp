@@ -92,7 +92,7 @@ perform.")
    #:newest-effective-designator #:copy-designator #:merge-desig-descriptions
    #:reference #:next-solution #:designated-pose
    ;; executive
-   #:perform #:perform-with #:perform-by-reference #:plan-known-p #:*control-functions*
+   #:perform #:perform-with #:generic-perform #:plan-known-p #:*control-functions*
     #:call-plan-function
    #:call-with-executive #:with-executive #:choose-strand
    #:leave-plan #:call-on-main #:current-handlers #:with-handlers

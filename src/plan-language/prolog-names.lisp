@@ -1,5 +1,5 @@
-;;;; The names of package CPL in facts of prolog: (not (foo ?x)) means the same goal whether the file
-;;;; uses Common Lisp or CPL.
+;;;; The names of package CPL in facts of prolog: (not (foo ?x)) means the same goal whether the
+;;;; file uses Common Lisp or CPL.
 
 (in-package #:discrepancy-finder.plan-language)
 

@@ -96,6 +96,18 @@
                                                               :constraint 'anything))
                                 :test #'equal))))
 
+(test goals-are-interpreted
+  "A symbolic argument passes through a goal: it is decided on where the goal's body looks at it."
+  (let ((exploration (explore-text "
+(declare-goal achieve-lamp (fact flag))
+(def-goal (achieve-lamp (on ?lamp) ?flag)
+  (perform (a motion (type smashing) (lamp ?lamp)))
+  (if ?flag (perform (a motion (type smashing) (lamp b)))))
+(def-top-level-cram-function lamp-plan (flag) (achieve-lamp '(on a) flag))"
+                                   :constraint 'anything :arguments '((flag boolean)))))
+    (is (= 2 (symbolic:exploration-paths exploration)))
+    (is (equal '(1 2) (sort (mapcar #'length (step-texts exploration)) #'<)))))
+
 (test deadlocks-of-plans-are-errors
   (signals-with (plan:deadlock "the fluent never")
     (explore-text "
