@@ -20,21 +20,27 @@
   "A row of a table.  PROMPT is true if its form is not to be put into a top-level."
   line operator question form outcome log prompt)
 
-(defun cells (line)
+(defun table-cells (line)
   "Return the list of the cells of LINE of a table, without blanks around and backquotes."
   (mapcar (lambda (cell) (string-trim " " cell))
           (butlast (rest (uiop:split-string line :separator "|")))))
 
-(defun code (cell)
+(defun without-backquotes (cell)
   (string-trim "`" cell))
 
-(defun rows (lines)
+(defun row-from (cells number prompt)
+  (destructuring-bind (operator question . code) cells
+    (destructuring-bind (form outcome log) (mapcar #'without-backquotes code)
+      (make-row :line number :operator operator :question question
+                :form form :outcome outcome :log log :prompt prompt))))
+
+(defun table-rows (lines)
   "Return the rows to be executed of the document LINES, and the list of the numbers of lines that
 look like a row but are none."
   (let ((kind nil) (rows '()) (malformed '()))
     (loop for line in lines
           for number from 1
-          for cells = (and (uiop:string-prefix-p "|" line) (cells line))
+          for cells = (and (uiop:string-prefix-p "|" line) (table-cells line))
           do (cond ((null cells) (setf kind nil))
                    ((null kind)
                     (setf kind (cond ((equal "form" (third cells)) :top-level)
@@ -43,11 +49,7 @@ look like a row but are none."
                    ((eq kind :other))
                    ((uiop:string-prefix-p "---" (first cells)))
                    ((/= 5 (length cells)) (push number malformed))
-                   (t (push (make-row :line number :operator (first cells)
-                                      :question (second cells) :form (code (third cells))
-                                      :outcome (code (fourth cells)) :log (code (fifth cells))
-                                      :prompt (eq kind :prompt))
-                            rows))))
+                   (t (push (row-from cells number (eq kind :prompt)) rows))))
     (values (nreverse rows) malformed)))
 
 (defun lisp-block (lines)
@@ -102,10 +104,10 @@ rows show what is wrong on purpose, too."
   (call-as-user (lambda ()
                   (compile nil `(lambda () ,(read-from-string (row-form row)))))))
 
-(defun alone-p (row)
+(defun row-alone-p (row)
   (uiop:string-suffix-p (row-question row) "(alone)"))
 
-(defun expected (row)
+(defun expected-outcome (row)
   (list (row-outcome row) (row-log row)))
 
 (defun in-top-level (function)
@@ -118,6 +120,10 @@ rows show what is wrong on purpose, too."
 (defun with-seed (seed function)
   (lambda () (let ((plan:*scheduling-seed* seed)) (funcall function))))
 
+(defun mismatch-text (row how found expected)
+  (format nil "line ~d~a: ~a~%  is      ~{~a, log ~a~}~%  and not ~{~a, log ~a~}"
+          (row-line row) how (row-form row) found expected))
+
 (defun row-mismatches (row)
   "Evaluate ROW in all ways that it is to be evaluated in, and return a list of texts that say what
 was not as the row says."
@@ -125,31 +131,30 @@ was not as the row says."
     (flet ((try (how function expected)
              (let ((found (outcome-of function)))
                (unless (equal expected found)
-                 (push (format nil "line ~d~a: ~a~%  is      ~{~a, log ~a~}~%  and not ~{~a, log ~a~}"
-                               (row-line row) how (row-form row) found expected)
-                       mismatches)))))
-      (cond ((row-prompt row) (try "" function (expected row)))
+                 (push (mismatch-text row how found expected) mismatches)))))
+      (cond ((row-prompt row) (try "" function (expected-outcome row)))
             (t
-             (try "" (in-top-level function) (expected row))
-             (unless (alone-p row)
-               (try " beside an idle task" (beside-an-idle-task function) (expected row))
+             (try "" (in-top-level function) (expected-outcome row))
+             (unless (row-alone-p row)
+               (try " beside an idle task" (beside-an-idle-task function) (expected-outcome row))
                (let ((seeded (with-seed 7 (beside-an-idle-task function))))
                  (try " again with the same seed" seeded (outcome-of seeded)))))))
     (nreverse mismatches)))
 
 (defun table-mismatches (lines)
   (load-helpers lines)
-  (mapcan #'row-mismatches (rows lines)))
+  (mapcan #'row-mismatches (table-rows lines)))
 
 ;;; The tests
 
 (test every-row-of-the-tables-is-true
   (let ((lines (plan-language-document)))
-    (is (null (nth-value 1 (rows lines))) "lines that are no rows: ~a" (nth-value 1 (rows lines)))
     (load-helpers lines)
-    (dolist (row (rows lines))
-      (let ((mismatches (row-mismatches row)))
-        (is (null mismatches) "~{~a~^~%~}" mismatches)))))
+    (multiple-value-bind (rows malformed) (table-rows lines)
+      (is (null malformed) "not five cells in the lines ~a" malformed)
+      (dolist (row rows)
+        (let ((mismatches (row-mismatches row)))
+          (is (null mismatches) "~{~a~^~%~}" mismatches))))))
 
 (defun changed-row-mismatches (column text)
   "Return the mismatches of the document with the cell COLUMN of the row for which par's result is
@@ -157,8 +162,8 @@ asked replaced by TEXT, and the number of its line."
   (let* ((lines (plan-language-document))
          (row (find-if (lambda (row) (and (equal "`par`" (row-operator row))
                                           (equal "result" (row-question row))))
-                       (rows lines)))
-         (cells (cells (elt lines (1- (row-line row))))))
+                       (table-rows lines)))
+         (cells (table-cells (elt lines (1- (row-line row))))))
     (setf (elt cells column) text)
     (load-helpers lines)
     (values (table-mismatches
@@ -225,7 +230,7 @@ asked replaced by TEXT, and the number of its line."
   (uiop:string-prefix-p question (row-question row)))
 
 (test the-tables-are-complete
-  (let ((rows (rows (plan-language-document))))
+  (let ((rows (table-rows (plan-language-document))))
     (loop for (operator . questions) in *operators-and-questions*
           for own = (remove (format nil "`~a`" operator) rows
                             :key #'row-operator :test #'string/=)

@@ -1,7 +1,25 @@
+;;;; The plan language: failures, designators as plans see them, plans and their sources, the task
+;;;; tree.
+;;;;
+;;;; What each operator does in its corner cases is shown, and tested, by docs/plan-language.md.
+
 (in-package #:discrepancy-finder.tests)
 
 (def-suite plan-language :in all)
 (in-suite plan-language)
+
+(defvar *events* '()
+  "What plans of these tests note, the last first.  Its global value: tasks see no other.")
+
+(defun note-event (event)
+  (push event *events*)
+  event)
+
+(defun events-of (function)
+  "Call FUNCTION and return the list of the events that it notes."
+  (setf *events* '())
+  (funcall function)
+  (reverse *events*))
 
 ;;; Failures
 
@@ -177,3 +195,66 @@
 
 (test unknown-plans-are-named
   (signals-with (plan:plan-not-found "no-such-plan") (plan:find-plan 'no-such-plan)))
+
+;;; The task tree
+
+(plan:def-cram-function fetch-something (what)
+  (note-event (list :fetch what))
+  (plan:sleep* 1/10)
+  (when (eql what 3) (plan:fail 'plan:gripper-goal-not-reached))
+  what)
+
+(plan:def-cram-function lay-table (cups &key (table :kitchen-table))
+  (plan:par (fetch-something cups) (fetch-something table))
+  (plan:with-failure-handling ((plan:plan-failure () (return :without)))
+    (fetch-something 3)))
+
+(defun laid-table ()
+  "Return the root of the task tree of a plan."
+  (plan:named-top-level (:name :tree) (lay-table 1) (lay-table 2 :table :desk))
+  (plan:get-top-level-task-tree :tree))
+
+(test nodes-of-the-task-tree
+  (let* ((root (laid-table))
+         (calls (plan:task-tree-node-children root))
+         (first-call (first calls)))
+    (is (null (plan:task-tree-node-parent root)))
+    (is (eq root (plan:task-tree-node-parent first-call)))
+    (is (equal '((lay-table) (plan:top-level :tree)) (plan:task-tree-node-path first-call)))
+    (is (equal '((:call 2) (lay-table) (plan:top-level :tree))
+               (plan:task-tree-node-path (second calls))))
+    (is (equal '((1 :kitchen-table) (2 :desk)) (mapcar #'plan:task-tree-node-parameters calls)))
+    (is (equal '((:without) (:without)) (mapcar #'plan:task-tree-node-result calls)))
+    (is (equal '(:succeeded :succeeded)
+               (mapcar (lambda (node) (plan:value (plan:task-tree-node-status-fluent node)))
+                       calls)))
+    (is (equal '(lay-table (cups &key (table :kitchen-table)))
+               (subseq (plan:task-tree-node-code first-call) 0 2)))
+    (destructuring-bind (one two failed) (plan:task-tree-node-children first-call)
+      (is (equal '((fetch-something cups) (fetch-something table))
+                 (mapcar #'plan:task-tree-node-code (list one two))))
+      (is (equal '(((1)) ((:kitchen-table)))
+                 (loop for branch in (list one two)
+                       collect (mapcar #'plan:task-tree-node-parameters
+                                       (plan:task-tree-node-children branch)))))
+      (is (equal '(3) (plan:task-tree-node-parameters failed)))
+      (is (typep (plan:task-tree-node-result failed) 'plan:gripper-goal-not-reached))
+      (is (eq :failed (plan:value (plan:task-tree-node-status-fluent failed)))))))
+
+(test the-task-tree-flattened
+  (let* ((root (laid-table))
+         (nodes (plan:flatten-task-tree root)))
+    (is (= 13 (length nodes)))
+    (is (eq root (first nodes)))
+    (is (= 13 (length (remove-duplicates (mapcar #'plan:task-tree-node-path nodes)
+                                         :test #'equal)))
+        "paths are unique")
+    (is (loop for node in (rest nodes)
+              always (< (position (plan:task-tree-node-parent node) nodes)
+                        (position node nodes))))))
+
+(test tasks-are-printed-in-one-line
+  (let ((task (plan:task-tree-node-task (first (plan:task-tree-node-children (laid-table))))))
+    (is (search "lay-table succeeded" (princ-to-string task)))
+    (is (null (find #\Newline (princ-to-string task))))
+    (is (null (find #\Newline (princ-to-string (laid-table)))))))

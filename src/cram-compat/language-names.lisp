@@ -7,12 +7,6 @@
 
 (in-package #:discrepancy-finder.cram-compat)
 
-(prolog:alias-predicate 'plan:fail 'prolog:fail)
-(prolog:alias-predicate 'cpl:not 'not)
-(prolog:alias-predicate 'cpl:< '<)
-(prolog:alias-predicate 'cpl:> '>)
-(prolog:alias-predicate 'cpl:= '=)
-
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter *language-names*
     '(;; plans, goals

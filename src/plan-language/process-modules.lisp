@@ -17,8 +17,18 @@
 (defvar *process-modules* (make-hash-table :test 'eq)
   "The function of each process module.")
 
+(defstruct (running-module (:constructor make-running-module (name free)) (:copier nil))
+  "A process module that runs.  It executes one motion at a time: FREE is a fluent that says whether
+it can execute the next."
+  (name nil :type symbol :read-only t)
+  (free nil :read-only t))
+
 (define-task-variable *running-process-modules* '()
-  "The process modules that run: a list of (alias . name).")
+  "The process modules that run: a list of (alias . RUNNING-MODULE).")
+
+(defun run-module (alias name)
+  (check-process-module name)
+  (cons alias (make-running-module name (make-fluent :name (list name 'is 'free) :value t))))
 
 (defmacro def-process-module (name (designator) &body body)
   "Define the process module NAME: it executes motions by evaluating BODY with DESIGNATOR bound to
@@ -40,11 +50,8 @@ the motion designator.  A failure of BODY is one of the motion."
 (defun call-with-process-modules (specifications function)
   (let ((modules (loop for specification in specifications
                        collect (if (consp specification)
-                                   (destructuring-bind (alias name) specification
-                                     (check-process-module name)
-                                     (cons alias name))
-                                   (progn (check-process-module specification)
-                                          (cons specification specification))))))
+                                   (run-module (first specification) (second specification))
+                                   (run-module specification specification)))))
     (progv '(*running-process-modules*) (list (append modules *running-process-modules*))
       (funcall function))))
 
@@ -62,16 +69,25 @@ name).  Signals PROCESS-MODULE-NOT-FOUND."
 
 (defun pm-execute (name designator)
   "Let the process module NAME, a name or alias, execute the motion DESIGNATOR in a task of its own,
-and return the primary value.  Signals PROCESS-MODULE-NOT-RUNNING and what the module fails with."
-  (let ((module (or (running-process-module name)
-                    (fail 'process-module-not-running :name name))))
+when it is free, and return the primary value.  Signals PROCESS-MODULE-NOT-RUNNING and what the
+module fails with."
+  (let* ((running (or (running-process-module name)
+                      (fail 'process-module-not-running :name name)))
+         (module (running-module-name running)))
     (values
      (call-in-task (list "process module" module)
                    `(process-module ,module)
-                   (lambda ()
-                     (funcall (the function (gethash module *process-modules*))
-                              (current-desig designator)))
+                   (lambda () (execute-motion running designator))
                    :parameters (lambda () (list designator))))))
+
+(defun execute-motion (running designator)
+  "Evaluate the body of the process module RUNNING for DESIGNATOR."
+  (wait-for (running-module-free running))
+  (setf (value (running-module-free running)) nil)
+  (unwind-protect (funcall (the function (gethash (running-module-name running)
+                                                  *process-modules*))
+                           (current-desig designator))
+    (setf (value (running-module-free running)) t)))
 
 ;;; Matching
 

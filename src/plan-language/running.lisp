@@ -41,10 +41,12 @@ it.  If false the task ends with it at once.")
       (envelop-error condition)
       condition))
 
-(defun debug-error (condition)
-  "Let the user look at CONDITION, an error in a task."
+(defun debug-error (condition hook)
+  "Let the user look at CONDITION, an error in a task.  HOOK is the debugger hook around the
+top-level."
   (with-simple-restart (rethrow "End the task with this failure.")
-    (let ((*machinery* t))
+    (let ((*machinery* t)
+          (sb-ext:*invoke-debugger-hook* hook))
       (invoke-debugger condition))))
 
 (defun debugger-hook (outer-hook)
@@ -54,7 +56,8 @@ handles.  All else is for OUTER-HOOK."
     (when (and *current-task* (not *machinery*)
                (typep condition '(or error plan-failure policy-condition storage-condition)))
       (when *debug-on-lisp-errors*
-        (call-on-main (lambda () (debug-error condition))))
+        (let ((hook (scheduler-outside-debugger-hook (task-scheduler *current-task*))))
+          (call-on-main (lambda () (debug-error condition hook)))))
       (setf (task-broken *current-task*) (envelope condition))
       (fail-task *current-task* (task-broken *current-task*)))
     (when outer-hook
@@ -238,9 +241,13 @@ their turns; the parent of TASK will wait for that."
          (progv *task-variables* task-values
            (let ((*current-task* task))
              (catch strand
-               (if (task-dead-p task)
-                   (finish-task task (task-status task))
-                   (run-task task function))))))))
+               (unwind-protect
+                    (progn
+                      (setf (strand-catching strand) t)
+                      (if (task-dead-p task)
+                          (finish-task task (task-status task))
+                          (run-task task function)))
+                 (setf (strand-catching strand) nil))))))))
     (end-strand strand)))
 
 (defun strand-debugger-hook (strand)

@@ -33,8 +33,8 @@ what a strand asks the thread of the top-level to do (requests.lisp)."
   (outside '())
   (outside-handlers '())
   (outside-restarts '())
+  (outside-debugger-hook nil)
   (request nil)
-  (thread nil)
   (float-modes '()))
 
 (defmethod print-object ((scheduler scheduler) stream)
@@ -126,7 +126,8 @@ in which they became ready, gets the baton.  An executive that explores all orde
   (let* ((ready (scheduler-ready scheduler))
          (strands (queue-head ready)))
     (dequeue ready (if (rest strands)
-                       (choose-strand *executive* scheduler (length strands))
+                       ;; Nobody chooses for a plan that is being left.
+                       (or (choose-strand *executive* scheduler (length strands)) 0)
                        0))))
 
 (defun next-strand (scheduler)
@@ -164,41 +165,45 @@ in which they became ready, gets the baton.  An executive that explores all orde
   (let ((scheduler (strand-scheduler strand)))
     (setf (scheduler-current scheduler) strand
           (strand-state strand) :running)
-    (when (strand-function strand)
-      (let ((worker (employ (shiftf (strand-function strand) nil))))
-        (setf (strand-worker strand) worker
-              (strand-semaphore strand) (worker-semaphore worker))))
-    (sb-thread:signal-semaphore (strand-semaphore strand))))
+    (if (strand-function strand)
+        (employ (shiftf (strand-function strand) nil)
+                (lambda (worker) (setf (strand-worker strand) worker)))
+        (sb-thread:signal-semaphore (strand-semaphore strand)))))
 
-(defun await-baton-and-serve (scheduler)
-  "On the main strand, wait for the baton and serve requests of others meanwhile.  Left in another
-way, by a handler around the top-level or by the user, the strand that is at work is stopped first."
-  (let ((back nil))
-    (unwind-protect
-         (loop
-           (sb-thread:wait-on-semaphore (strand-semaphore (scheduler-main scheduler)))
-           (let ((request (shiftf (scheduler-request scheduler) nil)))
-             (unless request
-               (setf back t)
-               (return))
-             (serve scheduler request)))
-      (unless back
-        (stop-current-strand scheduler)))))
-
-(defun await-baton (strand)
-  "Wait for the baton."
+(defun pass-baton (strand next)
+  "Give the baton of STRAND to NEXT and return when STRAND has it again."
   (let ((scheduler (strand-scheduler strand)))
     (if (eq strand (scheduler-main scheduler))
-        (await-baton-and-serve scheduler)
-        (sb-thread:wait-on-semaphore (strand-semaphore strand)))))
+        (pass-baton-of-main scheduler next)
+        (progn (hand-over next)
+               (sb-thread:wait-on-semaphore (strand-semaphore strand))))))
+
+(defun pass-baton-of-main (scheduler next)
+  "Give the baton of the main strand to NEXT, serve the requests of others, and return when the main
+strand has it again.  Left in another way, by a handler around the top-level or by the user, it
+takes the baton back before the stack is unwound any further."
+  (let* ((main (scheduler-main scheduler))
+         (semaphore (strand-semaphore main))
+         (back nil))
+    (unwind-protect
+         (progn
+           (sb-sys:without-interrupts (hand-over next))
+           (loop
+             (sb-thread:wait-on-semaphore semaphore)
+             (let ((request (shiftf (scheduler-request scheduler) nil)))
+               (unless request
+                 (setf back t)
+                 (return))
+               (serve scheduler request))))
+      (unless back
+        (sb-sys:without-interrupts (take-baton-back scheduler))))))
 
 (defun switch (strand)
   "Let the next strand run, and return when STRAND, the caller's, has the baton again."
   (let ((next (next-strand (strand-scheduler strand))))
-    (cond ((eq next strand)
-           (setf (strand-state strand) :running))
-          (t (hand-over next)
-             (await-baton strand)))))
+    (if (eq next strand)
+        (setf (strand-state strand) :running)
+        (pass-baton strand next))))
 
 (defun current-strand ()
   (task-strand *current-task*))

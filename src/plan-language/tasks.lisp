@@ -106,18 +106,19 @@ NIL."
   "A line of execution.  TASK is the innermost one that runs on it.  WORKER is the pooled thread
 that it uses, NIL before it begins and on the thread of the top-level itself; SEMAPHORE hands it the
 baton.  WAITING says for what it waits; TICKET tells its present sleep from earlier ones.  POLLER is
-true if all that it does is to look at something again and again."
+true if all that it does is to look at something again and again, CATCHING while it can be left."
   (scheduler nil :read-only t)
   (number 0 :type fixnum :read-only t)
   (task nil :type (or null task))
   (function nil)
   (worker nil)
-  (semaphore nil)
+  (semaphore (sb-thread:make-semaphore :name "baton") :read-only t)
   (state :ready :type (member :ready :running :waiting :requesting :done))
   (waiting nil)
   (ticket 0 :type fixnum)
   (timed-out nil)
-  (poller nil))
+  (poller nil)
+  (catching nil))
 
 (defmethod print-object ((strand strand) stream)
   (print-unreadable-object (strand stream :type t)

@@ -15,34 +15,50 @@
                      :outside (captured-bindings)
                      :outside-handlers (current-handlers)
                      :outside-restarts sb-kernel:*restart-clusters*
-                     :thread sb-thread:*current-thread*
+                     :outside-debugger-hook sb-ext:*invoke-debugger-hook*
                      :float-modes (sb-vm:floating-point-modes)))
-         (main (make-strand :scheduler scheduler :state :running
-                            :semaphore (sb-thread:make-semaphore :name "top-level"))))
+         (main (make-strand :scheduler scheduler :state :running)))
     (setf (scheduler-main scheduler) main
           (scheduler-current scheduler) main
           (scheduler-live scheduler) (list main))
     scheduler))
 
-(defun stop-strand (scheduler strand)
-  "Let STRAND, which is not the main one, leave its tasks and wait until it has ended."
-  (cond ((strand-function strand)       ; it has not begun
-         (setf (scheduler-live scheduler) (delete strand (scheduler-live scheduler))))
-        (t
-         (cond ((eq (strand-state strand) :requesting)
-                (sb-thread:signal-semaphore (strand-semaphore strand)))
-               ((eq (scheduler-current scheduler) strand)
-                (sb-thread:interrupt-thread (worker-thread (strand-worker strand))
-                                            (lambda () (throw strand nil))))
-               (t (hand-over strand)))
-         (sb-thread:wait-on-semaphore (strand-semaphore (scheduler-main scheduler))))))
+;;; Ending strands from outside.  Once LEAVING is set, whoever gets the baton leaves its tasks and
+;;; gives it to the main strand; one that is at work has to be interrupted.
 
-(defun stop-current-strand (scheduler)
-  "Stop the strand that has the baton, which is not the main one; then this has it."
-  (unless (scheduler-leaving scheduler)
-    (setf (scheduler-leaving scheduler) (list :abort)))
-  (stop-strand scheduler (scheduler-current scheduler))
-  (setf (scheduler-current scheduler) (scheduler-main scheduler)))
+(defun await-main-baton (scheduler)
+  "Wait until the main strand has the baton.  Requests are not served any more."
+  (let ((main (scheduler-main scheduler)))
+    (loop until (eq (scheduler-current scheduler) main)
+          do (sb-thread:wait-on-semaphore (strand-semaphore main))
+             (let ((request (shiftf (scheduler-request scheduler) nil)))
+               (when request
+                 (sb-thread:signal-semaphore (strand-semaphore (request-strand request))))))))
+
+(defun interrupt-strand (scheduler strand)
+  "Let STRAND, which is at work on its worker's thread, leave its tasks."
+  (sb-thread:interrupt-thread
+   (worker-thread (strand-worker strand))
+   (lambda ()
+     ;; It may have given the baton on, or have ended, before this is called.
+     (when (and (strand-catching strand) (eq (scheduler-current scheduler) strand))
+       (throw strand nil)))))
+
+(defun take-baton-back (scheduler)
+  "Stop the strand that has the baton, unless this is the main one; then that has it."
+  (let ((strand (scheduler-current scheduler)))
+    (unless (eq strand (scheduler-main scheduler))
+      (unless (scheduler-leaving scheduler)
+        (setf (scheduler-leaving scheduler) (list :abort)))
+      (interrupt-strand scheduler strand)
+      (await-main-baton scheduler))))
+
+(defun stop-strand (scheduler strand)
+  "Let STRAND, which waits for the baton, leave its tasks, and return when it has ended."
+  (cond ((null (strand-worker strand))  ; it has not begun
+         (setf (scheduler-live scheduler) (delete strand (scheduler-live scheduler))))
+        (t (hand-over strand)
+           (await-main-baton scheduler))))
 
 (defun end-scheduler (scheduler)
   "End all strands of SCHEDULER but the main one, if there are any left."
@@ -71,7 +87,7 @@ NIL, and return its values."
       (unwind-protect
            (let ((sb-ext:*invoke-debugger-hook* (debugger-hook sb-ext:*invoke-debugger-hook*)))
              (run-task task function))
-        (end-scheduler scheduler)))
+        (sb-sys:without-interrupts (end-scheduler scheduler))))
     (case (first (scheduler-leaving scheduler))
       (:error (error (second (scheduler-leaving scheduler))))
       ;; A cleanup form has waited for something: where to was lost.

@@ -8,7 +8,7 @@
 
 (defstruct (worker (:copier nil))
   "A thread that runs one job, a function, after the other.  JOB is NIL to end it."
-  (semaphore (sb-thread:make-semaphore :name "strand") :read-only t)
+  (semaphore (sb-thread:make-semaphore :name "job") :read-only t)
   (job nil)
   (thread nil))
 
@@ -27,15 +27,16 @@
       (setf (worker-job worker) nil)
       (funcall (the function job)))))
 
-(defun employ (job)
-  "Return a worker that will run the function JOB when its semaphore is signaled."
+(defun employ (job note)
+  "Let a worker run the function JOB; before it begins NOTE is called with it."
   (let ((worker (or (sb-thread:with-mutex (*idle-workers-lock*) (pop *idle-workers*))
                     (make-worker))))
     (setf (worker-job worker) job)
     (unless (worker-thread worker)
       (setf (worker-thread worker)
             (sb-thread:make-thread #'work :arguments (list worker) :name "strand of a plan")))
-    worker))
+    (funcall note worker)
+    (sb-thread:signal-semaphore (worker-semaphore worker))))
 
 (defun rest-worker (worker)
   "Take WORKER, whose job is about to end, back into the pool."
