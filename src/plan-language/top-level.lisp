@@ -37,12 +37,15 @@
 
 (defun interrupt-strand (scheduler strand)
   "Let STRAND, which is at work on its worker's thread, leave its tasks."
-  (sb-thread:interrupt-thread
-   (worker-thread (strand-worker strand))
-   (lambda ()
-     ;; It may have given the baton on, or have ended, before this is called.
-     (when (and (strand-catching strand) (eq (scheduler-current scheduler) strand))
-       (throw strand nil)))))
+  (let ((worker (strand-worker strand)))
+    ;; Without a worker it is about to begin, and then leaves by itself.
+    (when worker
+      (sb-thread:interrupt-thread
+       (worker-thread worker)
+       (lambda ()
+         ;; It may have given the baton on, or have ended, before this is called.
+         (when (and (strand-catching strand) (eq (scheduler-current scheduler) strand))
+           (throw strand nil)))))))
 
 (defun take-baton-back (scheduler)
   "Stop the strand that has the baton, unless this is the main one; then that has it."
