@@ -61,7 +61,7 @@ waited for it."))
     (let ((*print-length* 5) (*print-level* 2) (*print-pretty* nil))
       (format stream "~@[~a ~]= ~s" (fluent-name fluent)
               (handler-case (value fluent)
-                (error () :unknown))))))
+                (serious-condition () :unknown))))))
 
 (defun fluentp (thing)
   "Return true if THING is a fluent."
@@ -83,9 +83,25 @@ does not pulse it.  CLASS is VALUE-FLUENT or a subclass."
             (delete-if-not #'sb-ext:weak-pointer-value (fluent-dependents fluent))))
     live))
 
+(defgeneric needed-p (fluent)
+  (:documentation "Return true if somebody looks at FLUENT when it pulses.  Whether one that nobody
+uses any more is still there depends on the garbage collector; its function must not be called.")
+  (:method (fluent)
+    (or (waiting-strands fluent) (some #'needed-p (live-dependents fluent)))))
+
+(defmethod needed-p ((fluent pulsed-fluent)) t)
+
+(defgeneric note-value (fluent)
+  (:documentation "Let the nets in FLUENT remember the values that who begins to wait has seen.")
+  (:method (thing) (declare (ignore thing)))
+  (:method ((net fluent-net))
+    (mapc #'note-value (net-arguments net))
+    (setf (net-last-value net) (value net))))
+
 (defun depend-on (fluent origin)
   "Let FLUENT know of the pulses of ORIGIN, if it is a fluent."
   (when (fluentp origin)
+    (note-value origin)
     (push (sb-ext:make-weak-pointer fluent) (fluent-dependents origin))
     (live-dependents origin)))
 
@@ -103,10 +119,11 @@ does not pulse it.  CLASS is VALUE-FLUENT or a subclass."
 (defgeneric origin-pulsed (fluent)
   (:documentation "Tell FLUENT that one that it depends on has pulsed.")
   (:method ((net fluent-net))
-    (let ((new (value net)))
-      (unless (eql new (net-last-value net))
-        (setf (net-last-value net) new)
-        (pulse net))))
+    (when (needed-p net)
+      (let ((new (value net)))
+        (unless (eql new (net-last-value net))
+          (setf (net-last-value net) new)
+          (pulse net)))))
   (:method (fluent)
     (pulse fluent)))
 
@@ -183,6 +200,7 @@ while nobody waited :NEVER forgets all, :ONCE handles one, :ALWAYS handles each.
                (return value)))
            (when (and deadline (>= (now) deadline))
              (return nil))
+           (note-value fluent)
            (pushnew strand (waiting-strands fluent))
            (block-strand (lambda () (fluent-text fluent)) :deadline deadline))
       (setf (waiting-strands fluent) (delete strand (waiting-strands fluent))))))

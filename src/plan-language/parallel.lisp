@@ -8,7 +8,10 @@
 
 (defun start-branches (operator forms functions)
   "Start a task for each of FUNCTIONS, the branches of OPERATOR that FORMS are the code of."
-  (loop with parent = (need-task (list operator))
+  ;; Branches of an earlier form that failed stay until they have evaporated.
+  (let ((parent (need-task (list operator))))
+    (setf (task-children parent) (delete-if #'task-dead-p (task-children parent))))
+  (loop with parent = *current-task*
         for function in functions
         for form in forms
         for number from 1

@@ -44,9 +44,10 @@ top-level, and a plan failure in it is one of the caller."
           (sb-thread:signal-semaphore (strand-semaphore (scheduler-main scheduler)))
           (sb-thread:wait-on-semaphore (strand-semaphore strand))
           (setf (strand-state strand) state)
-          ;; One that has ended only asks who is next.
-          (unless (eq state :done)
-            (check-events strand))
+          ;; One that gives the baton on only asks who is next.
+          (cond ((eq state :done))
+                ((scheduler-leaving scheduler) (throw strand nil))
+                ((eq state :running) (check-events strand)))
           (if (request-failure request)
               (fail (request-failure request))
               (values-list (request-result request)))))))

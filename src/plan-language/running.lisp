@@ -49,12 +49,17 @@ top-level."
           (sb-ext:*invoke-debugger-hook* hook))
       (invoke-debugger condition))))
 
+(deftype plan-trouble ()
+  "What ends a task if nobody handles it there.  All else, such as an interrupt by the user or a
+timeout around the top-level, is no business of the plan."
+  '(or error plan-failure policy-condition storage-condition))
+
 (defun debugger-hook (outer-hook)
   "Return a function for *INVOKE-DEBUGGER-HOOK* that ends the current task with an error that nobody
 handles.  All else is for OUTER-HOOK."
   (lambda (condition hook)
     (when (and *current-task* (not *machinery*)
-               (typep condition '(or error plan-failure policy-condition storage-condition)))
+               (typep condition 'plan-trouble))
       (when *debug-on-lisp-errors*
         (let ((hook (scheduler-outside-debugger-hook (task-scheduler *current-task*))))
           (call-on-main (lambda () (debug-error condition hook)))))
@@ -70,7 +75,7 @@ pass the tasks first."
   ;; A cluster is a list of (test . handler).  HANDLER-BIND would make it on the stack.
   (list (list (cons (constantly t)
                     (lambda (condition)
-                      (unless (typep condition '(or serious-condition policy-condition))
+                      (unless (typep condition 'plan-trouble)
                         (signal-outside condition outside)))))))
 
 (defun signal-outside (condition handlers)
@@ -141,8 +146,10 @@ this and the list of the arguments."
                       ;; A cleanup form has left in another way than the error was going to.
                       (fail-task task (task-broken task)))
                     :succeeded))))
+      (when outcome
+        (finish-task task outcome))
       (setf (strand-task strand) outer)
-      (cond (outcome (finish-task task outcome))
+      (cond (outcome)
             ((or (null parent) (being-left-p task))
              (abandon-task task :evaporated))
             ((eq (task-strand parent) strand)
@@ -183,6 +190,9 @@ this and the list of the arguments."
                         (lambda () (every #'task-dead-p (task-children task))))))
     (when (eq status :evaporated)
       (setf (task-result task) nil))
+    (when (task-suspended task)
+      (setf (task-suspended task) nil)
+      (decf (scheduler-suspensions scheduler)))
     (setf (task-children task) '())
     (set-status task status)
     (dolist (joiner (shiftf (task-joiners task) '()))
@@ -284,10 +294,12 @@ is signaled again on the thread of the top-level, which the user sees."
          (scheduler (task-scheduler child)))
     (check-escape parent)
     (cond ((task-dead-p child))         ; a tag that has evaporated before it was reached
-          ((or (alone-p scheduler) (scheduler-uninterrupted scheduler))
+          ((or (alone-p scheduler) (strand-uninterrupted (task-strand parent)))
            (setf (task-strand child) (task-strand parent))
            (check-events (task-strand parent))
-           (run-task child function))
+           (run-task child function)
+           ;; What was asked of the parent meanwhile.
+           (check-events (task-strand parent)))
           (t
            (start-strand child function)
            (let ((ended nil))

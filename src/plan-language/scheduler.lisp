@@ -25,9 +25,7 @@ what a strand asks the thread of the top-level to do (requests.lisp)."
   (idle-since nil)
   (clock nil)
   (random nil)
-  (seed 0)
   (suspensions 0 :type fixnum)
-  (uninterrupted nil)
   (leaving nil)
   (handlers '())
   (outside '())
@@ -145,8 +143,16 @@ in which they became ready, gets the baton.  An executive that explores all orde
           (let ((deadline (next-deadline scheduler)))
             (unless deadline
               (deadlock))
-            (let-time-pass (scheduler-clock scheduler)
-              (- deadline (clock-time (scheduler-clock scheduler)))))))))
+            (pass-time scheduler (- deadline (clock-time (scheduler-clock scheduler)))))))))
+
+(defun pass-time (scheduler seconds)
+  "Let SECONDS pass.  A clock that is a simulation is no business of the plan."
+  (let ((clock (scheduler-clock scheduler)))
+    (if (typep clock 'virtual-clock)
+        (let-time-pass clock seconds)
+        (call-on-main (lambda ()
+                        (with-handlers ((scheduler-outside-handlers scheduler))
+                          (let-time-pass clock seconds)))))))
 
 (defun make-deadlock (scheduler)
   (make-condition 'deadlock
@@ -191,10 +197,11 @@ takes the baton back before the stack is unwound any further."
            (loop
              (sb-thread:wait-on-semaphore semaphore)
              (let ((request (shiftf (scheduler-request scheduler) nil)))
-               (unless request
-                 (setf back t)
-                 (return))
-               (serve scheduler request))))
+               (cond (request (serve scheduler request))
+                     ;; A signal may be left over from a wait that was interrupted.
+                     ((eq (scheduler-current scheduler) main)
+                      (setf back t)
+                      (return))))))
       (unless back
         (sb-sys:without-interrupts (take-baton-back scheduler))))))
 
@@ -221,6 +228,11 @@ takes the baton back before the stack is unwound any further."
                    (list (list* deadline (strand-ticket strand) strand))
                    #'< :key #'first))))
   (switch strand)
+  (when (and deadline (not (strand-timed-out strand)))
+    ;; Woken before: else the sleeps of ended strands would pile up.
+    (let ((scheduler (strand-scheduler strand)))
+      (setf (scheduler-sleepers scheduler)
+            (delete strand (scheduler-sleepers scheduler) :key #'cddr))))
   (setf (strand-waiting strand) nil))
 
 (defun block-strand (waiting &key deadline)
@@ -247,7 +259,7 @@ deadline is past.  A strand may also be woken without reason."
   (when *current-task*
     (let* ((strand (current-strand))
            (scheduler (strand-scheduler strand)))
-      (cond ((scheduler-uninterrupted scheduler))
+      (cond ((strand-uninterrupted strand))
             ((and (alone-p scheduler) (null (scheduler-leaving scheduler))
                   (zerop (scheduler-suspensions scheduler))
                   (null (task-evaporation *current-task*))))

@@ -99,6 +99,8 @@ their values.  NAME is a variable that holds the task, from the beginning of BOD
 
 (defun await-constraints (task)
   "Wait until all that is to come before TASK is done."
+  (when (task-constraints task)
+    (set-status task :waiting))
   (loop while (task-constraints task)
         do (let ((constraint (pop (task-constraints task))))
              (wait-for (if (task-p constraint) (task-dead constraint) constraint)))))

@@ -25,10 +25,12 @@
 ;;; Events
 
 (defun evaporating-task (strand)
-  "Return the outermost task of STRAND that is asked to evaporate, or NIL."
+  "Return the outermost task of STRAND that is asked to evaporate, or NIL.  One around a task that
+is just coming to its end waits for that."
   (let ((evaporating nil))
     (loop for task = (strand-task strand) then (task-parent task)
-          while (and task (eq (task-strand task) strand))
+          while (and task (eq (task-strand task) strand)
+                     (not (eq (task-evaporation task) :under-way)))
           do (when (eq (task-evaporation task) :requested)
                (setf evaporating task)))
     evaporating))
@@ -90,10 +92,12 @@ Called wherever a strand gets the baton."
 ;;; Suspension
 
 (defun suspended-task (task)
-  "Return the innermost of TASK and the tasks above it that is to be suspended, or NIL."
-  (loop for candidate = task then (task-parent candidate)
+  "Return the outermost of TASK and the tasks above it that is to be suspended, or NIL."
+  (loop with suspended = nil
+        for candidate = task then (task-parent candidate)
         while candidate
-        when (task-suspended candidate) return candidate))
+        when (task-suspended candidate) do (setf suspended candidate)
+        finally (return suspended)))
 
 (defun strand-tasks-below (strand suspended)
   "Return the tasks of STRAND from the innermost one to SUSPENDED or the strand's last."
@@ -190,11 +194,11 @@ and begins anew when the task is woken up."
   `(call-retrying-after-suspension (lambda () ,@body)))
 
 (defun call-uninterrupted (flag function)
-  (let* ((scheduler (task-scheduler (need-task '(without-scheduling))))
-         (before (scheduler-uninterrupted scheduler)))
-    (setf (scheduler-uninterrupted scheduler) flag)
+  (let* ((strand (task-strand (need-task '(without-scheduling))))
+         (before (strand-uninterrupted strand)))
+    (setf (strand-uninterrupted strand) flag)
     (unwind-protect (funcall function)
-      (setf (scheduler-uninterrupted scheduler) before))))
+      (setf (strand-uninterrupted strand) before))))
 
 (defmacro without-scheduling (&body body)
   "Evaluate BODY, in which no other task gets its turn unless BODY waits for something."

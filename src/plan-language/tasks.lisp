@@ -105,8 +105,9 @@ NIL."
 (defstruct (strand (:copier nil))
   "A line of execution.  TASK is the innermost one that runs on it.  WORKER is the pooled thread
 that it uses, NIL before it begins and on the thread of the top-level itself; SEMAPHORE hands it the
-baton.  WAITING says for what it waits; TICKET tells its present sleep from earlier ones.  POLLER is
-true if all that it does is to look at something again and again, CATCHING while it can be left."
+baton.  WAITING says for what it waits; TICKET tells its present sleep from earlier ones.
+UNINTERRUPTED is true inside of WITHOUT-SCHEDULING, POLLER if all that it does is to look at
+something again and again, CATCHING while it can be left."
   (scheduler nil :read-only t)
   (number 0 :type fixnum :read-only t)
   (task nil :type (or null task))
@@ -117,6 +118,7 @@ true if all that it does is to look at something again and again, CATCHING while
   (waiting nil)
   (ticket 0 :type fixnum)
   (timed-out nil)
+  (uninterrupted nil)
   (poller nil)
   (catching nil))
 

@@ -8,7 +8,6 @@
 (defun make-top-level-scheduler ()
   (let* ((seed *scheduling-seed*)
          (scheduler (make-scheduler
-                     :seed seed
                      :random (and (not (eql seed 0)) (sb-ext:seed-random-state seed))
                      :clock (or (executive-clock *executive*) (make-instance 'virtual-clock))
                      :handlers (border-handlers (current-handlers))
@@ -40,20 +39,26 @@
   (let ((worker (strand-worker strand)))
     ;; Without a worker it is about to begin, and then leaves by itself.
     (when worker
-      (sb-thread:interrupt-thread
-       (worker-thread worker)
-       (lambda ()
-         ;; It may have given the baton on, or have ended, before this is called.
-         (when (and (strand-catching strand) (eq (scheduler-current scheduler) strand))
-           (throw strand nil)))))))
+      (handler-case
+          (sb-thread:interrupt-thread
+           (worker-thread worker)
+           (lambda ()
+             ;; It may have given the baton on, or have ended, before this is called.
+             (when (and (strand-catching strand) (eq (scheduler-current scheduler) strand))
+               (throw strand nil))))
+        ;; The thread has ended: the strand has, too.
+        (sb-thread:interrupt-thread-error () nil)))))
 
 (defun take-baton-back (scheduler)
   "Stop the strand that has the baton, unless this is the main one; then that has it."
-  (let ((strand (scheduler-current scheduler)))
-    (unless (eq strand (scheduler-main scheduler))
+  (let ((main (scheduler-main scheduler)))
+    (unless (eq (scheduler-current scheduler) main)
       (unless (scheduler-leaving scheduler)
         (setf (scheduler-leaving scheduler) (list :abort)))
-      (interrupt-strand scheduler strand)
+      ;; Who gets the baton from now on sees that; who has it now may be at work.
+      (let ((strand (scheduler-current scheduler)))
+        (unless (eq strand main)
+          (interrupt-strand scheduler strand)))
       (await-main-baton scheduler))))
 
 (defun stop-strand (scheduler strand)
