@@ -231,7 +231,8 @@ The environment variable CXX names another compiler than g++."))
                (:file "prolog") (:file "prolog-lazy-lists") (:file "prolog-predicates")
                (:file "designators") (:file "designators-resolved")
                (:file "transforms") (:file "stamped-poses") (:file "roslisp")
-               (:file "plan-language") (:file "tasks") (:file "fluents")
+               (:file "plan-language") (:file "tasks") (:file "task-corners")
+               (:file "fluents")
                (:file "process-modules") (:file "plan-language-table")
                (:module "symbolic-execution"
                 :serial t

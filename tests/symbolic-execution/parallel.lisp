@@ -144,3 +144,27 @@
                                    :constraint 'anything :arguments '((flag boolean)))))
     (is (= 2 (length (symbolic:exploration-traces exploration))))
     (is (= 2 (symbolic:exploration-paths exploration)))))
+
+(test all-schedules-of-suspended-tasks
+  (is-true (symbolic:exploration-complete-p (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (with-tags
+    (par (:tag a (dotimes (i 2) (sleep 1)))
+         (with-task-suspended (a)
+           (par (sleep 1) (sleep 2))))))" :constraint 'anything :schedules :all))))
+
+(test writes-of-parallel-branches-are-undone
+  "Bindings in branches end in another order than they began."
+  (explore-text "
+(defvar *written* :before)
+(defvar *also* :before)
+(def-top-level-cram-function lamp-plan ()
+  (setf *also* :after)
+  (par (let ((*written* 1)) (setf *written* :l) (sleep 2))
+       (progn (sleep 1)
+              (let ((*also* 2)) (setf *also* 3) (setf *written* :global) (sleep 3)))))"
+                :constraint 'anything)
+  (is (equal '(:before :before)
+             (mapcar (lambda (name)
+                       (symbol-value (find-symbol name '#:discrepancy-finder-user)))
+                     '("*WRITTEN*" "*ALSO*")))))
