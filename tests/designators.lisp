@@ -132,9 +132,10 @@
     (is (equal '(:urdf-name)
                (suggestions '(desig:a location (in (an object (urdf-nmae x)))))))
     (is (equal '(:target) (suggestions '(desig:a motion (when t (targt 1))))))
+    (is (equal '(:type) (suggestions '(desig:a motion (typ going)))))
     ;; Inventions, short words, plurals.
     (is (null (suggestions '(desig:a motion (type waving) (amplitude 1) (if 1) (colour 2)
-                             (targets 3) (object (an object (typ 1)))))))
+                             (targets 3) (object (an object (size 1)))))))
     (is (null (suggestions '(desig:an object (side left) (weight 1) (|| 2)))))
     (is (null (suggestions '(desig:a location (weight 1)))))
     (is (null (suggestions '(desig:a motion (type going) (target 1) (object 2))))))

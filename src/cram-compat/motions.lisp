@@ -16,9 +16,17 @@
     (desig:designator-groundings ?current ?poses)
     (member ?pose ?poses))
 
+  (<- (desig:motion-grounding ?motion (move-base ?pose))
+    (desig:property ?motion (:type :going))
+    (desig:desig-prop ?motion (:pose ?pose)))
+
   (<- (desig:motion-grounding ?motion (move-torso ?angle))
     (desig:property ?motion (:type :moving-torso))
     (desig:property ?motion (:joint-angle ?angle)))
+
+  (<- (desig:motion-grounding ?motion (move-head :pose ?pose))
+    (desig:property ?motion (:type :looking))
+    (desig:desig-prop ?motion (:pose ?pose)))
 
   (<- (desig:motion-grounding ?motion (move-head :pose ?pose))
     (desig:property ?motion (:type :looking))

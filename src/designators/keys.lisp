@@ -57,7 +57,7 @@ removed or swapped with its neighbour, 2 for one that is replaced."
 
 (defun tolerance (length)
   "Return up to which edit distance a slip is likely in a word of LENGTH.  Of short ones many differ
-by a character: :in, :on; :side, :size."
+by a character: :in, :on; :side, :size.  To replace one counts as two slips."
   (cond ((< length 4) 0) ((< length 6) 1) (t 2)))
 
 (defun plural-of-p (first second)
@@ -74,7 +74,9 @@ none.  A plural or singular of a known key is taken for intended."
       ;; By name, so that of equally near keys it is always the same one.
       (dolist (candidate (sort (copy-list known) #'string<) best)
         (let* ((other (symbol-name candidate))
-               (limit (tolerance (min (length name) (length other)))))
+               (limit (if (< (min (length name) (length other)) 3)
+                            0
+                            (tolerance (max (length name) (length other))))))
           (when (or (plural-of-p name other) (plural-of-p other name))
             (return nil))
           ;; The first character is seldom wrong: :weight is not :height.

@@ -165,10 +165,13 @@ NIL, and the result."
         ((symbolic:entered-p (monitor-domain monitor) designator) (call-next-method))
         ((>= (length (monitor-steps monitor)) *step-limit*) (leave-run monitor :too-many-steps))
         (t
-         (let ((outcomes (call-watched monitor
-                                       (lambda ()
-                                         (symbolic:action-outcomes (monitor-domain monitor)
-                                                                   designator)))))
+         (let* ((plan (plan:current-plan-name))
+                (outcomes (call-watched monitor
+                                        (lambda ()
+                                          (symbolic:action-outcomes (monitor-domain monitor)
+                                                                    designator
+                                                                    :plan plan
+                                                                    :position position)))))
            (multiple-value-bind (failure result) (perform-concretely monitor designator position)
              (call-watched monitor
                            (lambda ()

@@ -11,9 +11,14 @@
   ((name :initarg :name :reader plan-not-found-name
          :documentation "The name for which there is no plan."))
   (:report (lambda (condition stream)
-             (format stream "There is no plan named ~(~a~); it would be defined by ~
-                             def-top-level-cram-function or def-cram-function."
-                     (plan-not-found-name condition))))
+             (let ((name (plan-not-found-name condition)))
+               (format stream (if (and (symbolp name) (fboundp name))
+                                  "The function ~(~a~) is no plan with a source: such a one is ~
+                                   defined by def-top-level-cram-function or def-cram-function, ~
+                                   outside of other forms."
+                                  "There is no plan named ~(~a~); it would be defined by ~
+                                   def-top-level-cram-function or def-cram-function.")
+                       name))))
   (:documentation "Signaled when a plan is asked for that was never defined."))
 
 (defun short-form (form)
@@ -76,6 +81,17 @@ happen any more."))
   (:report "The plan was interrupted, and one of its cleanup forms waited for another task.")
   (:documentation "Signaled by a top-level that was left by a jump out of it, while a cleanup form
 of the plan did what can be done only as long as the plan runs."))
+
+(define-condition too-many-tasks (plan-error)
+  ((task :initarg :task :reader too-many-tasks-task
+         :documentation "The task that was to begin, in words.")
+   (limit :initarg :limit :reader too-many-tasks-limit
+          :documentation "The number of parallel tasks that can be under way."))
+  (:report (lambda (condition stream)
+             (format stream "~a cannot begin: ~d parallel tasks are under way already."
+                     (too-many-tasks-task condition) (too-many-tasks-limit condition))))
+  (:documentation "Signaled by a top-level with too many parallel tasks at the same time; recursion
+without end in a parallel branch leads to it."))
 
 (define-condition fluent-not-settable (plan-error)
   ((fluent :initarg :fluent :reader fluent-not-settable-fluent

@@ -34,11 +34,21 @@ MALFORMED-PLAN-FORM."
                                       do (funcall handler handled)))))
     (funcall body)))
 
-(defun check-failure-clause (clause form)
-  (unless (and (consp clause) (consp (rest clause)) (listp (second clause))
-               (<= (length (second clause)) 1))
-    (error 'malformed-plan-form
-           :form form :expected "a list of clauses (class ([variable]) form*)")))
+(defun class-name-p (thing)
+  (and thing (symbolp thing) (not (keywordp thing))))
+
+(defun failure-clause-p (clause)
+  "Return true if CLAUSE is (class ([variable]) form*), where class may be (or class+)."
+  (and (alexandria:proper-list-p clause) (rest clause)
+       (destructuring-bind (type variables &rest forms) clause
+         (declare (ignore forms))
+         (and (or (class-name-p type)
+                  (and (alexandria:proper-list-p type) (eq (first type) 'or) (rest type)
+                       (every #'class-name-p (rest type))))
+              (or (null variables)
+                  (and (alexandria:proper-list-p variables) (null (rest variables))
+                       (class-name-p (first variables))
+                       (not (constantp (first variables)))))))))
 
 (defun failure-handlers (clause)
   "Return the list of the forms for the (type . function) of CLAUSE.  There is one for each of the
@@ -50,14 +60,15 @@ classes in an OR, as in CRAM: a failure of several of them is handed to the clau
                                      (declare (ignorable ,parameter))
                                      ,@handler))))))
 
-(defmacro with-failure-handling (&whole form clauses &body body)
+(defmacro with-failure-handling (&whole form clauses &body body &environment environment)
   "Evaluate BODY and return its values.  CLAUSES are (type ([variable]) form*): when a condition of
 TYPE, a class or (or class*), is signaled in BODY, the forms run before the stack is unwound.  They
 may call RETRY, leave by RETURN, or end normally: then the next clause that fits and after it the
 outer handlers have their turn.  Semantics are CRAM's."
-  (unless (listp clauses)
+  (unless (and (alexandria:proper-list-p clauses) (every #'failure-clause-p clauses))
     (error 'malformed-plan-form
-           :form form :expected "a list of clauses (class ([variable]) form*)"))
+           :form form :plan (source:enclosing-definition environment)
+           :expected "a list of clauses (class ([variable]) form*)"))
   (let ((again (gensym "AGAIN")))
     `(block nil
        (tagbody
@@ -66,9 +77,7 @@ outer handlers have their turn.  Semantics are CRAM's."
             (call-with-failure-handlers
              (flet ((retry () (go ,again)))
                (declare (ignorable #'retry))
-               (list ,@(loop for clause in clauses
-                             do (check-failure-clause clause form)
-                             append (failure-handlers clause))))
+               (list ,@(loop for clause in clauses append (failure-handlers clause))))
              (lambda () ,@body)))))))
 
 ;;; Retry counters
@@ -90,8 +99,8 @@ outer handlers have their turn.  Semantics are CRAM's."
 (defun counter-form (name form environment)
   "Return the form for the retry counter NAME that is lexically visible in ENVIRONMENT.  Signals
 MALFORMED-PLAN-FORM for FORM if there is none."
-  (let ((variable (counter-variable name)))
-    (if (nth-value 1 (macroexpand-1 variable environment))
+  (let ((variable (and (class-name-p name) (counter-variable name))))
+    (if (and variable (nth-value 1 (macroexpand-1 variable environment)))
         variable
         (error 'malformed-plan-form
                :form form :plan (source:enclosing-definition environment)
@@ -105,10 +114,21 @@ may use for a variable of its own."
                   (package-name (or (symbol-package name) *package*)) name)
           '#:discrepancy-finder.plan-language))
 
-(defmacro with-retry-counters (bindings &body body)
+(defun check-counters (bindings form environment)
+  (unless (and (alexandria:proper-list-p bindings)
+               (every (lambda (binding)
+                        (and (alexandria:proper-list-p binding) (= (length binding) 2)
+                             (class-name-p (first binding))))
+                      bindings))
+    (error 'malformed-plan-form
+           :form form :plan (source:enclosing-definition environment)
+           :expected "a list of counters (name number)")))
+
+(defmacro with-retry-counters (&whole form bindings &body body &environment environment)
   "Evaluate BODY with retry counters: BINDINGS are (name number).  In BODY, (do-retry name form*)
 evaluates the forms and counts down while retries are left and returns NIL afterwards,
 (get-counter name) returns what is left, (reset-counter name) starts again."
+  (check-counters bindings form environment)
   (let ((variables (loop for nil in bindings collect (gensym "COUNTER"))))
     `(let ,(loop for variable in variables
                  for (nil number) in bindings

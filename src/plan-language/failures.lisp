@@ -75,12 +75,16 @@ restart to go on.  T stands for all, NIL for none.")
 (defun failure-from (arguments)
   "Return the condition that ARGUMENTS of FAIL mean."
   (let ((datum (first arguments)))
-    (etypecase datum
+    (typecase datum
       (null (make-condition 'simple-plan-failure))
       (string (make-condition 'simple-plan-failure :format-control datum
                                                    :format-arguments (rest arguments)))
-      (symbol (apply #'make-condition datum (rest arguments)))
-      (condition datum))))
+      (condition datum)
+      (t (if (and (symbolp datum) (subtypep datum 'condition))
+             (apply #'make-condition datum (rest arguments))
+             (error 'malformed-plan-form
+                    :form `(fail ,@arguments) :plan (current-plan-name)
+                    :expected "nothing, a text, the class of a condition or a condition"))))))
 
 (define-hook on-fail (failure)
   "Called with each FAILURE that FAIL signals, before it does.")

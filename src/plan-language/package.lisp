@@ -18,11 +18,12 @@ perform.")
    ;; plans and their sources
    #:def-cram-function #:def-top-level-cram-function #:def-plan
    #:plan #:plan-name #:plan-lambda-list #:plan-body #:plan-documentation #:plan-position
-   #:plan-top-level-p #:find-plan #:plan-source #:load-plan #:ensure-top-level
+   #:plan-top-level-p #:find-plan #:current-plan-name #:plan-source #:load-plan #:ensure-top-level
    ;; goals
    #:declare-goal #:def-goal #:succeed #:register-goal #:describe-goal
    ;; top-levels
    #:top-level #:named-top-level #:call-in-top-level #:*scheduling-seed* #:*idle-limit*
+   #:*strand-limit*
    ;; one after the other, in parallel
    #:seq #:par #:par-loop #:pursue #:try-all #:try-in-order #:try-each-in-order
    #:partial-order #:mapcar-clean
@@ -125,7 +126,8 @@ perform.")
    #:malformed-plan-form #:malformed-plan-form-form #:malformed-plan-form-expected
    #:malformed-plan-form-plan
    #:misplaced-retry #:misplaced-retry-form
-   #:deadlock #:deadlock-waiting #:top-level-interrupted #:wait-for-nil
+   #:deadlock #:deadlock-waiting #:too-many-tasks #:too-many-tasks-task
+   #:too-many-tasks-limit #:top-level-interrupted #:wait-for-nil
    #:fluent-not-settable #:fluent-not-settable-fluent
    #:task-left-by-jump #:task-left-by-jump-task #:task-not-found #:task-not-found-path
    #:process-module-not-found #:process-module-not-found-name

@@ -16,8 +16,9 @@
   (documentation nil :type (or null string) :read-only t)
   (top-level-p nil :type boolean :read-only t)
   (position nil :type (or null source:source-position) :read-only t)
-  ;; NIL for a plan; for a helper the function that its definition was compiled to.
-  (helper nil :type (or null function) :read-only t))
+  ;; What the definition was compiled to: if the name has another function now, this is out of date.
+  (function nil :type (or null function) :read-only t)
+  (helper-p nil :type boolean :read-only t))
 
 (setf (documentation 'plan-name 'function)
       "Return the symbol that names a plan."
@@ -45,11 +46,9 @@
 
 (defun plan-source (name)
   "Return the PLAN of the function named by the symbol NAME, also if that is a helper that LOAD-PLAN
-has loaded, or NIL.  A helper that was redefined since in another way has none."
+has loaded, or NIL.  One that was redefined since in another way has none."
   (let ((plan (gethash name *plans*)))
-    (and plan
-         (or (null (plan-helper plan))
-             (and (fboundp name) (eq (fdefinition name) (plan-helper plan))))
+    (and plan (fboundp name) (eq (fdefinition name) (plan-function plan))
          plan)))
 
 (defun find-plan (name)
@@ -57,13 +56,13 @@ has loaded, or NIL.  A helper that was redefined since in another way has none."
 DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
   (flet ((plan-of (name)
            (let ((plan (plan-source name)))
-             (and plan (null (plan-helper plan)) plan))))
+             (and plan (not (plan-helper-p plan)) plan))))
     (or (plan-of name)
         (plan-of (find-symbol (symbol-name name) '#:discrepancy-finder-user))
         (error 'plan-not-found :name name))))
 
 (defun record-plan (plan)
-  (unless (or (plan-helper plan) (eq *noted-plans* :none))
+  (unless (or (plan-helper-p plan) (eq *noted-plans* :none))
     (push plan *noted-plans*))
   (setf (gethash (plan-name plan) *plans*) plan))
 
@@ -72,7 +71,8 @@ DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
   (multiple-value-bind (forms declarations) (split-body body)
     (record-plan (make-plan :name name :lambda-list lambda-list
                             :body (append declarations forms)
-                            :position position :helper (fdefinition name))))
+                            :position position :helper-p t
+                            :function (fdefinition name))))
   name)
 
 (defun split-body (body)
@@ -118,6 +118,9 @@ DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
 refer to what is local to them: then it is a function only, whose source would be of no use."
   (unless (and (symbolp name) (listp lambda-list))
     (error 'malformed-plan-form :form form :expected "(name (parameter*) form*)"))
+  (when (or (macro-function name) (special-operator-p name))
+    (error 'malformed-plan-form :form form :plan name
+                                :expected "a name that is none of an operator"))
   (multiple-value-bind (forms declarations documentation) (split-body body)
     (let ((task (task-form name lambda-list declarations forms top-level-p)))
       `(progn
@@ -130,7 +133,8 @@ refer to what is local to them: then it is a function only, whose source would b
                 (make-plan :name ',name :lambda-list ',lambda-list
                            :body '(,@declarations ,task)
                            :documentation ,documentation :top-level-p ,top-level-p
-                           :position (source:form-position ',form)))))
+                           :position (source:form-position ',form)
+                           :function (fdefinition ',name)))))
          ',name))))
 
 (defmacro def-cram-function (&whole form name lambda-list &body body &environment environment)

@@ -119,8 +119,9 @@ in the order of the facts."
 primary value.  If all fail, fail like the first of them."
   (let ((modules (matching-process-modules designator)))
     (unless modules
-      (fail "No matching process module found for ~a.~@[  Those that run: ~{~(~a~)~^, ~}.~]"
-            designator (get-running-process-modules)))
+      (fail "No matching process module found for ~a~@[ in the plan ~(~a~)~].~@[  Those that run: ~
+             ~{~(~a~)~^, ~}.~]"
+            designator (current-plan-name) (get-running-process-modules)))
     (handler-case (try-each-in-order (module modules)
                     (pm-execute module designator))
       (composite-failure (failure)

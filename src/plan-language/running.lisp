@@ -265,8 +265,18 @@ their turns; the parent of TASK will wait for that."
 is signaled again on the thread of the top-level, which the user sees."
   (debugger-hook (lambda (condition hook)
                    (declare (ignore hook))
-                   (when (typep condition 'error)
-                     (leave-with strand (list :error condition))))))
+                   (if (typep condition 'error)
+                       (leave-with strand (list :error condition))
+                       ;; A break, for example: the user goes on from there.
+                       (call-on-main (lambda () (show-user condition))))
+                   (let ((continue (find-restart 'continue condition)))
+                     (when continue
+                       (invoke-restart continue))))))
+
+(defun show-user (condition)
+  "Enter the debugger with CONDITION, which a task has signaled, on the thread of the top-level."
+  (with-simple-restart (continue "Go on in the task.")
+    (invoke-debugger condition)))
 
 (defun end-strand (strand)
   "Take STRAND out of its scheduler and give the baton on."
@@ -274,6 +284,7 @@ is signaled again on the thread of the top-level, which the user sees."
         (worker (strand-worker strand)))
     (setf (strand-state strand) :done
           (scheduler-live scheduler) (delete strand (scheduler-live scheduler)))
+    (decf (scheduler-begun scheduler))
     (let ((next (if (scheduler-leaving scheduler)
                     (scheduler-main scheduler)
                     (let ((*current-task* (strand-task strand)))

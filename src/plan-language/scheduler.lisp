@@ -22,6 +22,7 @@ what a strand asks the thread of the top-level to do (requests.lisp)."
   (sleepers '() :type list)
   (live '() :type list)
   (count 0 :type fixnum)
+  (begun 0 :type fixnum)
   (idle-since nil)
   (clock nil)
   (random nil)
@@ -43,6 +44,9 @@ what a strand asks the thread of the top-level to do (requests.lisp)."
   "The seed of the order in which tasks take turns.  With 0 they take turns in a fixed order, the
 one that has been ready for longest first; other seeds pick at random, each always in the same
 way.")
+
+(defparameter *strand-limit* 6000
+  "So many parallel tasks of a top-level can be under way at the same time; each has a thread.")
 
 (defparameter *idle-limit* 3600
   "When nothing but policy checks has run for so many seconds of the clock, it is a deadlock.")
@@ -129,20 +133,26 @@ in which they became ready, gets the baton.  An executive that explores all orde
                        0))))
 
 (defun next-strand (scheduler)
-  "Return the strand that goes on next.  In a deadlock that is the main one, which is told."
-  (flet ((deadlock ()
-           (setf (scheduler-leaving scheduler) (list :error (make-deadlock scheduler)))
+  "Return the strand that goes on next.  In a deadlock, or when too many strands are at work at the
+same time, that is the main one, which is told."
+  (flet ((give-up (condition)
+           (setf (scheduler-leaving scheduler) (list :error condition))
            (return-from next-strand (scheduler-main scheduler))))
     (loop
       (wake-sleepers scheduler)
       (if (queue-head (scheduler-ready scheduler))
           (let ((strand (pick-ready scheduler)))
-            (when (idle-too-long-p scheduler strand)
-              (deadlock))
+            (cond ((idle-too-long-p scheduler strand)
+                   (give-up (make-deadlock scheduler)))
+                  ((and (strand-function strand)
+                        (>= (incf (scheduler-begun scheduler)) *strand-limit*))
+                   (give-up (make-condition 'too-many-tasks
+                                            :task (task-text (strand-task strand))
+                                            :limit *strand-limit*))))
             (return strand))
           (let ((deadline (next-deadline scheduler)))
             (unless deadline
-              (deadlock))
+              (give-up (make-deadlock scheduler)))
             (pass-time scheduler (- deadline (clock-time (scheduler-clock scheduler)))))))))
 
 (defun pass-time (scheduler seconds)

@@ -186,12 +186,24 @@ Of what the compiler says meanwhile the warnings are printed, a line each."
                             (setf file new-file
                                   line new-line)))))))
 
+(defun expansion-problem (condition)
+  "Return what was wrong when the compiler, which has signaled CONDITION, expanded a macro."
+  (let ((inner (sb-int:encapsulated-condition condition)))
+    (or (and (typep inner 'simple-condition)
+             (find-if (lambda (argument) (typep argument 'condition))
+                      (simple-condition-format-arguments inner)))
+        inner)))
+
 (defun evaluate-form (form file line)
   "Evaluate FORM, which begins at LINE of FILE; an error is a SOURCE-ERROR if it does not say itself
 where it is."
   (handler-bind ((error (lambda (condition)
                           (unless (self-explaining-p condition)
-                            (loading-problem condition (native-name file) line)))))
+                            (loading-problem condition (native-name file) line))))
+                 ;; The compiler would make code of it that fails when it is reached.
+                 (sb-c:compiler-error
+                   (lambda (condition)
+                     (loading-problem (expansion-problem condition) (native-name file) line))))
     ;; A plan file is code: this is its loader.
     (let ((*load-pathname* file) (*load-truename* (truename file)))
       (eval form))))

@@ -241,9 +241,16 @@ region of a pose or of a location designator."
                                                   (t nil))
                                            nil))))))))))))
 
-(defun action-outcomes (domain designator)
+(defun action-outcomes (domain designator &key plan position)
   "Return the list of the OUTCOMEs that DESIGNATOR may have in DOMAIN, success first.  Signals
-ACTION-PROBLEM if there is no binding for it or its arguments mean nothing in the theory."
+ACTION-PROBLEM if there is no binding for it or its arguments mean nothing in the theory; it names
+the PLAN that performs it and the source POSITION where it does."
+  (handler-bind ((action-problem (lambda (condition)
+                                   (setf (slot-value condition 'plan) plan
+                                         (slot-value condition 'position) position))))
+    (describe-outcomes domain designator)))
+
+(defun describe-outcomes (domain designator)
   (let ((binding (find-action-binding domain designator))
         (ground (action-theory-ground domain)))
     (unless binding

@@ -47,9 +47,17 @@ know."))
   ((designator :initarg :designator :reader action-problem-designator
                :documentation "The designator in question.")
    (reason :initarg :reason :reader action-problem-reason
-           :documentation "What is wrong, as a string."))
+           :documentation "What is wrong, as a string.")
+   (plan :initarg :plan :initform nil :reader action-problem-plan
+         :documentation "The name of the plan that performs it, or NIL.")
+   (position :initarg :position :initform nil :reader action-problem-position
+             :documentation "Where it is performed, a source position, or NIL."))
   (:report (lambda (condition stream)
-             (format stream "~a: ~a." (action-problem-designator condition)
+             (format stream "~@[~a: ~]~a~@[ in the plan ~(~a~)~]: ~a."
+                     (let ((position (action-problem-position condition)))
+                       (and position (princ-to-string position)))
+                     (action-problem-designator condition)
+                     (action-problem-plan condition)
                      (action-problem-reason condition))))
   (:documentation "Signaled when an action binding cannot say what a designator means in its
 theory."))

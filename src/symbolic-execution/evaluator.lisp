@@ -128,7 +128,8 @@
            (let ((value (funcall (the function argument) frame)))
              (if (symbolic-boolean-p value)
                  (make-symbolic-boolean (z3:negation (symbolic-boolean-proposition value)))
-                 (not value))))))
+                 ;; That of CPL knows fluents.
+                 (funcall name value))))))
       (funcall
        (lambda (frame)
          (destructuring-bind (function . values) (evaluate-arguments arguments frame)

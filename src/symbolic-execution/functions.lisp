@@ -102,7 +102,8 @@ arguments apart, the evaluator computes the defaults and binds the variables in 
                     ,@(and allow-other-keys '(&allow-other-keys))))
            (taken (append required (mapcar #'first optional) (and rest (list rest))
                           (mapcar #'cadar keywords)))
-           (splitter (compile nil `(lambda ,plain (list ,@taken))))
+           (splitter (handler-bind ((warning #'muffle-warning))
+                       (compile nil `(lambda ,plain (list ,@taken)))))
            (parameters (append (loop for variable in required collect (list variable nil nil))
                                optional
                                (and rest (list (list rest nil nil)))

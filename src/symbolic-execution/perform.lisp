@@ -37,11 +37,13 @@ must be true for it."
     (multiple-value-bind (next conditions) (ec:progress state event)
       (values next (if (eq condition t) conditions (acons nil condition conditions))))))
 
-(defun take-step (path designator position)
-  "Decide for an outcome of DESIGNATOR on PATH, add the step and return the outcome."
+(defun take-step (path designator position plan)
+  "Decide for an outcome of DESIGNATOR, which PLAN performs at POSITION, on PATH, add the step and
+return the outcome."
   (let* ((state (first (path-states path)))
          (description (princ-to-string designator))
-         (outcomes (action-outcomes (path-domain path) designator))
+         (outcomes (action-outcomes (path-domain path) designator
+                                    :plan plan :position position))
          (options (loop for outcome in outcomes
                         collect (multiple-value-bind (next conditions)
                                     (outcome-transition (path-domain path) state outcome)
@@ -65,7 +67,8 @@ enters that plan."
         ((path-ending path) (plan:leave-plan path))
         ((entered-p (path-domain path) designator) (call-next-method))
         ((>= (length (path-steps path)) (path-max-steps path)) (abandon path :too-many-steps))
-        (t (let ((outcome (outside-the-plan (path) (take-step path designator position))))
+        (t (let* ((plan (plan:current-plan-name))
+                  (outcome (outside-the-plan (path) (take-step path designator position plan))))
              (if (eq (outcome-name outcome) :success)
                  (outcome-value outcome)
                  (plan:fail (outcome-name outcome)))))))
