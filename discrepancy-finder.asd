@@ -236,7 +236,8 @@ The environment variable CXX names another compiler than g++."))
                (:file "process-modules") (:file "plan-language-table")
                (:module "symbolic-execution"
                 :serial t
-                :components ((:file "evaluator") (:file "exploration") (:file "parallel")))
+                :components ((:file "evaluator") (:file "exploration") (:file "parallel")
+                             (:file "table")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")
