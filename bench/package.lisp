@@ -6,6 +6,8 @@ same work without it.")
                     (#:foreign #:discrepancy-finder.foreign)
                     (#:geometry #:discrepancy-finder.geometry)
                     (#:z3 #:discrepancy-finder.z3)
+                    (#:prolog #:discrepancy-finder.prolog)
+                    (#:desig #:discrepancy-finder.designators)
                     (#:plan #:discrepancy-finder.plan-language)
                     (#:discrepancy #:discrepancy-finder.discrepancy)
                     (#:df #:discrepancy-finder))
@@ -15,5 +17,6 @@ same work without it.")
    ;; steps of a Bullet world, through Lisp and in plain C++
    #:lisp-steps-per-second #:plain-steps-per-second
    ;; rounds of the plan language
-   #:perform-rounds #:retry-rounds #:plain-retry-rounds #:child-failure-rounds #:par-rounds
+   #:perform-rounds #:module-rounds #:parallel-module-rounds
+   #:retry-rounds #:plain-retry-rounds #:child-failure-rounds #:par-rounds
    #:thread-rounds))

@@ -22,6 +22,34 @@
       (dotimes (index count)
         (plan:perform (plan:a motion (type nothing)))))))
 
+;;; The whole way of CRAM: matching, grounding, a process module.
+
+(prolog:def-fact-group no-op-motions (plan:matching-process-module plan:available-process-module
+                                      desig:motion-grounding)
+  (prolog:<- (desig:motion-grounding ?motion (nothing))
+    (desig:desig-prop ?motion (:type :nothing)))
+  (prolog:<- (plan:matching-process-module ?motion no-op-module)
+    (desig:desig-prop ?motion (:type :nothing)))
+  (prolog:<- (plan:available-process-module no-op-module)))
+
+(plan:def-process-module no-op-module (motion)
+  (desig:reference motion))
+
+(defun module-rounds (count)
+  "Perform a motion by a process module COUNT times in one top-level."
+  (plan:top-level
+    (plan:with-process-modules-running (no-op-module)
+      (dotimes (index count)
+        (plan:perform (plan:a motion (type nothing)))))))
+
+(defun parallel-module-rounds (count)
+  "The same in a branch of a PAR, beside a task that waits."
+  (plan:top-level
+    (plan:with-process-modules-running (no-op-module)
+      (plan:pursue (dotimes (index count)
+                     (plan:perform (plan:a motion (type nothing))))
+                   (plan:wait-for (plan:make-fluent))))))
+
 (defun retry-rounds (count)
   "Fail and retry COUNT times in one task."
   (plan:top-level
@@ -88,7 +116,9 @@ and the median ratio of their times, pair by pair."
            (multiple-value-bind (us them ratio) (compare-rounds ours count theirs their-count)
              (format stream "~25a ~,2f us, ~a ~,2f us, time ratio ~,3f~%"
                      what us peer them ratio))))
-    (report "perform of a no-op motion" #'perform-rounds 1000 "a thread" #'thread-rounds 100)
+    (report "perform, process module" #'module-rounds 1000 "a thread" #'thread-rounds 100)
+    (report "the same in a branch" #'parallel-module-rounds 1000 "a thread" #'thread-rounds 100)
+    (report "perform, no-op executive" #'perform-rounds 1000 "a thread" #'thread-rounds 100)
     (report "the same, 100 000 of them" #'perform-rounds 100000 "1000 of them"
             #'perform-rounds 1000)
     (report "fail and retry" #'retry-rounds 10000 "in plain Lisp" #'plain-retry-rounds 10000)

@@ -114,22 +114,26 @@ in the order of the facts."
           (pushnew name names))))
     (nreverse names)))
 
+(defun usable-process-modules (designator)
+  "Return the list of the process modules that can execute DESIGNATOR, or fail if there is none."
+  (or (matching-process-modules designator)
+      (fail "No matching process module found for ~a~@[ in the plan ~(~a~)~].~@[  Those that run: ~
+             ~{~(~a~)~^, ~}.~]"
+            designator (current-plan-name) (get-running-process-modules))))
+
+(defun execute-by-one-of (modules designator)
+  (handler-case (try-each-in-order (module modules)
+                  (pm-execute module designator))
+    (composite-failure (failure)
+      (fail (first (composite-failures failure))))))
+
 (defun pm-execute-matching (designator)
   "Let the first process module that matches DESIGNATOR and does not fail execute it, and return its
 primary value.  If all fail, fail like the first of them."
-  (let ((modules (matching-process-modules designator)))
-    (unless modules
-      (fail "No matching process module found for ~a~@[ in the plan ~(~a~)~].~@[  Those that run: ~
-             ~{~(~a~)~^, ~}.~]"
-            designator (current-plan-name) (get-running-process-modules)))
-    (handler-case (try-each-in-order (module modules)
-                    (pm-execute module designator))
-      (composite-failure (failure)
-        (fail (first (composite-failures failure)))))))
+  (execute-by-one-of (usable-process-modules designator) designator))
 
 (defun perform-motion (designator)
   "Resolve the motion DESIGNATOR and let a matching process module execute it."
-  (unless (matching-process-modules designator)
-    (pm-execute-matching designator))
-  (try-reference-designator designator)
-  (pm-execute-matching designator))
+  (let ((modules (usable-process-modules designator)))
+    (try-reference-designator designator)
+    (execute-by-one-of modules designator)))
