@@ -234,6 +234,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "plan-language") (:file "tasks") (:file "task-corners")
                (:file "fluents")
                (:file "process-modules") (:file "plan-language-table")
+               (:file "malformed-plans")
                (:module "symbolic-execution"
                 :serial t
                 :components ((:file "evaluator") (:file "exploration") (:file "parallel")

@@ -81,7 +81,10 @@ MOTION-DESIGNATOR, or the class itself, means, or NIL."
 (defun make-designator (type description &optional parent)
   "Return a designator of TYPE (:action, :motion, :location, :object or :human) with DESCRIPTION, a
 list of (key value*).  With PARENT, a designator, it is equated to that.  Signals
-MALFORMED-DESIGNATOR for another type."
+MALFORMED-DESIGNATOR for another type or what is no such list."
+  (unless (and (listp description) (every #'consp description))
+    (error 'malformed-designator :form `(make-designator ,type ,description)
+                                 :expected "a list of (key value*)"))
   (let ((designator (new-designator type description :a)))
     (when parent
       (equate parent designator))

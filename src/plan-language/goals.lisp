@@ -66,7 +66,7 @@ arguments that unify with PATTERN."
 (defmacro def-goal (&whole form (name &rest pattern) &body body &environment environment)
   "Define what the goal function NAME does when its arguments unify with PATTERN, in which symbols
 with a question mark are variables.  (succeed value*) returns from BODY."
-  (unless (and (symbolp name) (symbol-package name))
+  (unless (and (symbolp name) (symbol-package name) (not (keywordp name)))
     (error 'malformed-plan-form :form form :expected "(name pattern*) after def-goal"))
   (let ((variables (prolog:vars-in pattern))
         (function (goal-function-name name pattern))
