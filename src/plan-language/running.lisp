@@ -65,8 +65,12 @@ handles.  All else is for OUTER-HOOK."
           (call-on-main (lambda () (debug-error condition hook)))))
       (setf (task-broken *current-task*) (envelope condition))
       (fail-task *current-task* (task-broken *current-task*)))
-    (when outer-hook
-      (funcall outer-hook condition hook))))
+    (if outer-hook
+        (funcall outer-hook condition hook)
+        ;; What the user tries in the debugger is not the plan's either.
+        (let ((*machinery* t)
+              (sb-ext:*invoke-debugger-hook* nil))
+          (invoke-debugger condition)))))
 
 (defun border-handlers (outside)
   "Return condition handlers for the tasks of a top-level.  OUTSIDE are those in force around it:
