@@ -43,15 +43,16 @@
         (plan:perform (plan:a motion (type nothing)))))))
 
 (defun parallel-module-rounds (count)
-  "The same in a branch of a PAR, beside a task that waits."
+  "The same in a branch of a PURSUE, beside a task that waits."
   (plan:top-level
     (plan:with-process-modules-running (no-op-module)
       (plan:pursue (dotimes (index count)
                      (plan:perform (plan:a motion (type nothing))))
                    (plan:wait-for (plan:make-fluent))))))
 
-(defun retry-rounds (count)
-  "Fail and retry COUNT times in one task."
+(defun handled-rounds (count function)
+  "Call FUNCTION, which fails, and retry, COUNT times in one task."
+  (declare (function function))
   (plan:top-level
     (let ((rounds 0))
       (declare (fixnum rounds))
@@ -60,7 +61,15 @@
              (when (< (incf rounds) count)
                (plan:retry))
              (return)))
-        (plan:fail 'plan:navigation-goal-not-reached)))))
+        (funcall function)))))
+
+(defun retry-rounds (count)
+  "Fail and retry COUNT times in one task."
+  (handled-rounds count (lambda () (plan:fail 'plan:navigation-goal-not-reached))))
+
+(defun child-failure-rounds (count)
+  "Let a plan that another one calls fail, and retry, COUNT times."
+  (handled-rounds count #'failing-child))
 
 (defun plain-retry-rounds (count)
   "The same in Common Lisp."
@@ -76,18 +85,6 @@
                               (go again))
                             (return))))
            (error 'plan:navigation-goal-not-reached))))))
-
-(defun child-failure-rounds (count)
-  "Let a plan that another one calls fail, and retry, COUNT times."
-  (plan:top-level
-    (let ((rounds 0))
-      (declare (fixnum rounds))
-      (plan:with-failure-handling
-          ((plan:navigation-low-level-failure ()
-             (when (< (incf rounds) count)
-               (plan:retry))
-             (return)))
-        (failing-child)))))
 
 (defun par-rounds (count)
   "Do two things in parallel COUNT times."

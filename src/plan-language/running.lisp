@@ -258,9 +258,7 @@ their turns; the parent of TASK will wait for that."
                (unwind-protect
                     (progn
                       (setf (strand-catching strand) t)
-                      (if (task-dead-p task)
-                          (finish-task task (task-status task))
-                          (run-task task function)))
+                      (run-task task function))
                  (setf (strand-catching strand) nil))))))))
     (end-strand strand)))
 
