@@ -60,7 +60,7 @@ The environment variable CXX names another compiler than g++."))
   :pathname "src/interface/"
   :serial t
   :components ((:file "package") (:file "repl") (:file "command-line") (:file "subcommands")
-               (:file "image"))
+               (:file "theory-commands") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
 (asdf:defsystem "discrepancy-finder/geometry"
@@ -90,9 +90,13 @@ The environment variable CXX names another compiler than g++."))
   :depends-on ("discrepancy-finder/foreign" "cffi")
   :pathname "src/z3/"
   :serial t
-  :components ((:file "package") (:file "conditions") (:file "raw") (:file "text")
-               (:file "context") (:file "terms") (:file "interrupt") (:file "solver")
-               (:file "check")))
+  :components ((:file "package") (:file "conditions") (:file "raw")
+               (:file "raw-contexts") (:file "raw-sorts") (:file "raw-terms")
+               (:file "raw-bit-vectors") (:file "raw-accessors") (:file "raw-solvers")
+               (:file "raw-tactics") (:file "text") (:file "context")
+               (:file "sorts") (:file "terms") (:file "connectives") (:file "equality")
+               (:file "arithmetic") (:file "interrupt") (:file "solver") (:file "models")
+               (:file "check") (:file "smt-lib-names") (:file "smt-lib") (:file "clauses")))
 
 (asdf:defsystem "discrepancy-finder/bullet"
   :description "Rigid-body worlds of the Bullet physics library, through a C++ shim with a C API."
@@ -116,9 +120,30 @@ The environment variable CXX names another compiler than g++."))
   :depends-on ("discrepancy-finder/z3" "discrepancy-finder/source")
   :pathname "src/event-calculus/"
   :serial t
-  :components ((:file "package") (:file "names") (:file "conditions") (:file "theory")
-               (:file "formula") (:file "state-constraints") (:file "grounding")
-               (:file "progression")))
+  :components ((:file "package") (:file "conditions")
+               (:module "language"
+                :serial t
+                :components ((:file "names") (:file "sorts") (:file "theory") (:file "formula")
+                             (:file "axioms") (:file "define-theory") (:file "state-constraints")
+                             (:file "foundations")))
+               (:module "grounding"
+                :serial t
+                :components ((:file "ground-theory") (:file "compiler") (:file "numeric")
+                             (:file "formulas")
+                             (:file "axioms")))
+               (:module "reasoning"
+                :serial t
+                :components ((:file "clauses") (:file "encoding") (:file "numeric-fluents")
+                             (:file "completion") (:file "reasoner") (:file "numbers")
+                             (:file "models") (:file "queries") (:file "core") (:file "why")
+                             (:file "findings")))
+               (:file "progression")
+               (:module "e-files"
+                :serial t
+                :components ((:file "conditions") (:file "tokens") (:file "expressions")
+                             (:file "statements") (:file "files") (:file "vocabulary")
+                             (:file "formulas") (:file "reader") (:file "e-names")
+                             (:file "sentences") (:file "writer") (:file "print-models")))))
 
 (asdf:defsystem "discrepancy-finder/prolog"
   :description "A small Prolog with lazy solutions, in which designators are grounded."
@@ -228,6 +253,7 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "run") (:file "fixtures")
                (:file "geometry") (:file "source") (:file "json") (:file "z3") (:file "z3-life")
                (:file "event-calculus")
+               (:file "e-files") (:file "e-files-errors") (:file "e-files-written")
                (:file "prolog") (:file "prolog-lazy-lists") (:file "prolog-predicates")
                (:file "designators") (:file "designators-resolved")
                (:file "transforms") (:file "stamped-poses") (:file "roslisp")

@@ -60,3 +60,17 @@ known, the axiom, the sub-form and what was expected."))
                (format stream "~a is no ground ~a of theory ~a."
                        (if (stringp atom) atom (formula-text atom)) kind (name-text theory)))))
   (:documentation "Signaled when a ground fluent or event is named that the theory does not have."))
+
+(define-condition no-horizon (event-calculus-error)
+  ((theory :initarg :theory :reader no-horizon-theory :documentation "The theory's name.")
+   (horizon :initarg :horizon :initform nil :reader no-horizon-horizon
+            :documentation "What was given as the horizon, or NIL."))
+  (:report (lambda (condition stream)
+             (with-slots (theory horizon) condition
+               (if horizon
+                   (format stream "~s is no horizon: the last timepoint, or a list of the first and ~
+                                   the last, was expected." horizon)
+                   (format stream "Theory ~a says nothing of timepoints (:time first last), so a ~
+                                   horizon must be given."
+                           (name-text theory))))))
+  (:documentation "Signaled when it is not known which timepoints a question is about."))

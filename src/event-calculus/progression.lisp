@@ -71,17 +71,25 @@ these for the successive timepoints."
                                            (evaluate (third formula))))))))
       (evaluate formula))))
 
+;; Sentences about one timepoint, and those about a step.
+
+(defun sentences-over (ground last)
+  (remove-if-not (lambda (sentence)
+                   (and (not (sentence-absolute sentence)) (= (sentence-last sentence) last)
+                        (= (sentence-first sentence) 0)))
+                 (ground-theory-sentences ground)))
+
 (defun sentence-conditions (sentences states &optional event)
-  (loop for (axiom . formula) in sentences
-        for proposition = (holds formula states event)
-        unless (eq proposition t) collect (cons axiom proposition)))
+  (loop for sentence in sentences
+        for proposition = (holds (sentence-formula sentence) states event)
+        unless (eq proposition t) collect (cons (sentence-axiom sentence) proposition)))
 
 (defun initial-conditions (state)
   "Return what must be true of the initial STATE: a list of (axiom . proposition), the theory's
 INITIALLY axioms and its sentences about single states."
   (let ((ground (state-ground state)))
     (append (sentence-conditions (ground-theory-initial-conditions ground) (list state))
-            (sentence-conditions (ground-theory-state-sentences ground) (list state)))))
+            (sentence-conditions (sentences-over ground 0) (list state)))))
 
 (defun progress (state event)
   "Return the state after EVENT, the number of an event or NIL for none, happened in STATE, and what
@@ -90,13 +98,14 @@ an effect with its opposite."
   (let* ((ground (state-ground state))
          (values (copy-seq (state-values state)))
          (effects (and event (svref (ground-theory-effects ground) event)))
-         (conditions (sentence-conditions (ground-theory-step-sentences ground) (list state)
-                                          event)))
-    (dolist (index (remove-duplicates (mapcar #'second effects)))
+         (conditions '()))
+    (dolist (index (remove-duplicates (mapcar #'effect-fluent effects)))
       (flet ((affected (kind)
-               (z3:disjunction (loop for (effect-kind fluent guard) in effects
-                                     when (and (eq effect-kind kind) (= fluent index))
-                                       collect (holds guard (list state) event)))))
+               (z3:disjunction (loop for effect in effects
+                                     when (and (eq (effect-kind effect) kind)
+                                               (= (effect-fluent effect) index))
+                                       collect (holds (effect-guard effect) (list state)
+                                                      event)))))
         (let* ((initiated (affected :initiates))
                (terminated (affected :terminates))
                (compatible (z3:negation (z3:conjunction (list initiated terminated)))))
@@ -107,5 +116,6 @@ an effect with its opposite."
                                                        (z3:negation terminated)))))))))
     (let ((next (make-state ground (1+ (state-time state)) values)))
       (values next
-              (append conditions
-                      (sentence-conditions (ground-theory-state-sentences ground) (list next)))))))
+              (append (sentence-conditions (sentences-over ground 1) (list state next) event)
+                      conditions
+                      (sentence-conditions (sentences-over ground 0) (list next)))))))

@@ -13,8 +13,15 @@
                     (#:arguments #:command-line-arguments))
   (:import-from #:discrepancy-finder.event-calculus
                 #:define-theory #:load-theory #:find-theory #:define-state-constraint
+                #:load-e-theory #:save-e-theory #:write-e-theory
+                #:make-reasoner #:close-reasoner #:with-reasoner #:extend-horizon
+                #:models #:count-models #:model-fluents #:model-events #:model-literals
+                #:possible-p #:consistent-p #:entailed-p #:consequences #:abduce
+                #:why #:why-impossible #:why-inconsistent #:explanation-core
+                #:explanation-sentences #:explanation-axioms
+                #:check-theory #:finding-severity #:finding-text
                 #:event-calculus-error #:theory-error #:theory-not-found #:unknown-atom
-                #:state-constraint-not-found)
+                #:state-constraint-not-found #:no-horizon #:e-file-error)
   (:import-from #:discrepancy-finder.plan-language
                 #:load-plan #:plan-error #:plan-not-found #:malformed-plan-form
                 #:designator-not-understood #:not-in-top-level #:nested-top-level #:deadlock)
@@ -50,6 +57,13 @@
    ;; theories, domains, plans
    #:define-theory #:load-theory #:find-theory #:define-state-constraint
    #:define-abstraction #:define-action #:region-of #:load-domain #:domain #:load-plan
+   ;; questions to theories
+   #:load-e-theory #:save-e-theory #:write-e-theory
+   #:make-reasoner #:close-reasoner #:with-reasoner #:extend-horizon
+   #:models #:count-models #:model-fluents #:model-events #:model-literals
+   #:possible-p #:consistent-p #:entailed-p #:consequences #:abduce
+   #:why #:why-impossible #:why-inconsistent #:explanation-core #:explanation-sentences
+   #:explanation-axioms #:check-theory #:finding-severity #:finding-text
    ;; symbolic execution
    #:explore-plan #:exploration #:exploration-traces #:exploration-complete-p
    #:exploration-paths #:exploration-gaps
@@ -66,7 +80,7 @@
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
-   #:unknown-atom
+   #:unknown-atom #:no-horizon #:e-file-error
    #:plan-error #:plan-not-found #:malformed-plan-form #:designator-not-understood
    #:not-in-top-level #:nested-top-level #:deadlock
    #:malformed-designator #:unknown-designator-key

@@ -1,19 +1,28 @@
-;;;; Checks and models.
+;;;; Checks and cores.
 ;;;;
-;;;; CHECK asks whether the assertions of a solver can hold together; MODEL-VALUE reads one way in
-;;;; which they do.  Z3's third answer, `unknown', is a condition and no answer.
+;;;; CHECK asks whether the assertions of a solver can hold together; if they cannot, UNSAT-CORE
+;;;; tells which of them and of the assumptions are to blame.  See models.lisp for the way in which
+;;;; they can.  Z3's third answer, `unknown', is a condition and no answer.
 
 (in-package #:discrepancy-finder.z3)
 
 ;;; One check
 
-(defun check-in-z3 (solver literals)
-  "Make the check, with the assumptions LITERALS.  Return :SAT, :UNSAT, or :UNKNOWN and the reason."
+(defun with-tracked-literals (solver assumed)
+  "Return the addresses ASSUMED after those that SOLVER assumes for its tracked assertions."
+  (let ((tracked (solver-tracked solver)))
+    (if tracked
+        (concatenate 'handles (nreverse (mapcar #'tracked-literal tracked)) assumed)
+        assumed)))
+
+(defun check-in-z3 (solver assumed assumptions &optional asker)
+  "Make the check, with the assumptions at the addresses ASSUMED, which are ASSUMPTIONS, of the
+clause set ASKER if they are numbers.  Return :SAT, :UNSAT, or :UNKNOWN and the reason."
+  (declare (type handles assumed))
   (let* ((context (solver-context solver))
-         (count (length literals))
-         (terms (make-array count :element-type '(unsigned-byte 64))))
-    (map-into terms (lambda (literal) (live-pointer literal context)) literals)
-    (forget-model solver)
+         (terms (with-tracked-literals solver assumed)) (count (length terms)))
+    (declare (type handles terms))
+    (forget-answer solver)
     (multiple-value-bind (answer reason)
         (call-interruptibly
          context
@@ -37,49 +46,56 @@
                                              pointer address))))))))))
       (cond ((eq reason :closed) (misuse :closed-solver "the solver is closed"))
             ((consp reason) (signal-z3-error (car reason) (cdr reason))))
-      (when (eq answer :sat)
-        (setf (solver-model solver) :unread))
+      (case answer
+        (:sat (setf (solver-model solver) :unread))
+        (:unsat (setf (solver-core solver) :unread
+                      (solver-assumed solver) assumed
+                      (solver-assumptions solver) assumptions
+                      (solver-asker solver) asker)))
       (values answer reason))))
 
-(defun read-model (solver)
-  "Return the address of the model of SOLVER's last check.  Signal Z3-ERROR if there is none."
-  (let ((model (solver-model solver)))
-    (case model
-      ((nil) (misuse :no-model "there is no model, for the last operation on the solver was not ~
-                                a check that found one"))
-      (:unread
-       (calling-solver (pointer address solver)
-         (let ((model (foreign:with-c-float-traps (z3-solver-get-model pointer address))))
-           (unless (zerop model)
-             (z3-model-inc-ref pointer model)
-             (setf (solver-model solver) model)))))
-      (t model))))
+(defun check-literal-terms (solver terms)
+  "Do as CHECK-IN-Z3 does with the list TERMS, which are literals."
+  (let ((context (solver-context solver)))
+    (check-in-z3 solver
+                 (map 'handles (lambda (term) (live-pointer term context)) terms)
+                 terms)))
 
 (defun check-in-scope (solver propositions)
-  "Do as CHECK-IN-Z3 does, with any terms as assumptions: assert them for the time of the check."
-  (let ((scopes (scope-count solver)))
+  "Do as CHECK-IN-Z3 does with any terms: assert them, in a scope, for the time of the check."
+  (let* ((context (solver-context solver))
+         (terms (map 'handles
+                     (lambda (proposition) (proposition-pointer 'check proposition context))
+                     propositions)))
     (unwind-protect
-         (progn (push-scope solver)
-                (dolist (proposition propositions)
-                  (solver-assert solver proposition))
-                (multiple-value-bind (answer reason) (check-in-z3 solver '())
-                  (when (eq answer :sat)
-                    (read-model solver))
-                  (values answer reason)))
+         (progn
+           (forget-answer solver)
+           (calling-solver (pointer address solver)
+             (foreign:with-c-float-traps (z3-solver-push pointer address))
+             (loop for term across (the handles terms)
+                   while (zerop (z3-get-error-code pointer))
+                   do (z3-solver-assert pointer address term)))
+           (multiple-value-bind (answer reason) (check-in-z3 solver (make-handles 0) '())
+             ;; What Z3 holds is gone with the scope.
+             (case answer
+               (:sat (read-model solver))
+               (:unsat (setf (solver-core solver)
+                             (cons (and (solver-tracked solver) (car (read-core solver)))
+                                   propositions))))
+             (values answer reason)))
       (calling-solver (pointer address solver)
-        (z3-solver-pop pointer address (- (z3-solver-get-num-scopes pointer address) scopes))))))
+        (z3-solver-pop pointer address
+                       (- (z3-solver-get-num-scopes pointer address) (scope-count solver)))))))
 
-(defun check-for (solver assumptions timeout)
-  "Make one check that ends after TIMEOUT seconds."
-  (flet ((ask ()
-           (if (every #'literal-p assumptions)
-               (check-in-z3 solver assumptions)
-               (check-in-scope solver assumptions))))
-    (if (eql timeout (solver-timeout solver))
-        (ask)
-        (unwind-protect (progn (configure-solver solver timeout)
-                               (ask))
-          (configure-solver solver (solver-timeout solver))))))
+;;; Checks until there is an answer
+
+(defun check-for (solver ask timeout)
+  "Call ASK, which makes one check of SOLVER, so that it ends after TIMEOUT seconds."
+  (if (eql timeout (solver-timeout solver))
+      (funcall ask)
+      (unwind-protect (progn (configure-solver solver timeout)
+                             (funcall ask))
+        (configure-solver solver (solver-timeout solver)))))
 
 (defun read-timeout ()
   "Ask the user for the argument of RETRY-WITH-TIMEOUT."
@@ -90,7 +106,23 @@
       (when (typep seconds '(real (0)))
         (return (list seconds))))))
 
-;;; The questions
+(defun answer-of (solver ask)
+  "Call ASK, which makes one check of SOLVER, until there is an answer, and return it.  Signal
+SOLVER-UNKNOWN, with its restarts, when there is none."
+  (let ((timeout (solver-timeout solver)))
+    (loop
+      (multiple-value-bind (answer reason) (check-for solver ask timeout)
+        (unless (eq answer :unknown)
+          (return answer))
+        (restart-case (error 'solver-unknown :solver solver :reason reason)
+          (retry-with-timeout (seconds)
+            :report "Check again, for at most so many seconds as you say."
+            :interactive read-timeout
+            (check-type seconds (real (0)))
+            (setf timeout seconds))
+          (treat-as-sat ()
+            :report "Answer :SAT: paths are then kept although they are not proved possible."
+            (return :sat)))))))
 
 (defun check (solver &optional (assumptions '()))
   "Return :SAT if the assertions of SOLVER can hold together with the list ASSUMPTIONS of
@@ -105,41 +137,55 @@ the check is made again from the start, with its full timeout."
   (dolist (assumption assumptions)
     (check-type assumption proposition))
   (when (member nil assumptions)
-    (forget-model solver)
+    (forget-answer solver)
+    (setf (solver-asker solver) nil
+          (solver-core solver) (list '() nil))
     (return-from check :unsat))
-  (let ((assumptions (remove t assumptions))
-        (timeout (solver-timeout solver)))
-    (loop
-      (multiple-value-bind (answer reason) (check-for solver assumptions timeout)
-        (unless (eq answer :unknown)
-          (return answer))
-        (restart-case (error 'solver-unknown :solver solver :reason reason)
-          (retry-with-timeout (seconds)
-            :report "Check again, for at most so many seconds as you say."
-            :interactive read-timeout
-            (check-type seconds (real (0)))
-            (setf timeout seconds))
-          (treat-as-sat ()
-            :report "Answer :SAT: paths are then kept although they are not proved possible."
-            (return :sat)))))))
+  (let ((assumptions (remove t assumptions)))
+    (answer-of solver
+               (if (every #'literal-p assumptions)
+                   (lambda () (check-literal-terms solver assumptions))
+                   (lambda () (check-in-scope solver assumptions))))))
 
-(defun model-value (solver proposition)
-  "Return the truth value, T or NIL, of PROPOSITION in the model that the last CHECK of SOLVER
-found.  Where the model leaves a variable open Z3 completes it, and goes on to give the same value.
-Signals Z3-ERROR if there is no model: the last check did not say :SAT (or by TREAT-AS-SAT only), or
-assertions or scopes have changed since then."
-  (check-type proposition proposition)
-  (let ((model (read-model solver)))
-    (if (term-p proposition)
-        (let ((term (live-pointer proposition (solver-context solver)))
-              (value (make-array 1 :element-type '(unsigned-byte 64))))
-          (sb-sys:with-pinned-objects (value)
-            (case (calling-z3 (pointer (solver-context solver))
-                    ;; The value needs no reference: Z3 keeps the last result alive.
-                    (if (z3-model-eval pointer model term t (sb-sys:vector-sap value))
-                        (z3-get-bool-value pointer (aref value 0))
-                        0))
-              (1 t)
-              (-1 nil)
-              (t (misuse :exception "the model gives no truth value to ~a" proposition)))))
-        proposition)))
+;;; Cores
+
+(defun core-addresses (solver)
+  "Return a table whose keys are the addresses of the literals in the core that Z3 holds."
+  (let ((addresses (make-hash-table)))
+    (calling-solver (pointer address solver)
+      (let ((core (z3-solver-get-unsat-core pointer address)))
+        (unless (zerop core)
+          (z3-ast-vector-inc-ref pointer core)
+          (dotimes (index (z3-ast-vector-size pointer core))
+            (setf (gethash (z3-ast-vector-get pointer core index) addresses) t))
+          (z3-ast-vector-dec-ref pointer core))))
+    addresses))
+
+(defun read-core (solver)
+  "Return (labels . assumptions): those of the last check of SOLVER that are in its core, in order.
+Signal Z3-ERROR if there is none."
+  (case (solver-core solver)
+    ((nil) (misuse :no-core "there is no core, for the last operation on the solver was not a ~
+                             check that said :unsat"))
+    (:unread
+     (let ((addresses (core-addresses solver)) (seen (make-hash-table :test 'equal)))
+       (flet ((in-core-p (address) (gethash address addresses)))
+         (setf (solver-core solver)
+               (cons (loop for tracked in (reverse (solver-tracked solver))
+                           for label = (tracked-label tracked)
+                           when (and (in-core-p (tracked-literal tracked))
+                                     (not (shiftf (gethash label seen) t)))
+                             collect label)
+                     (loop for assumption in (solver-assumptions solver)
+                           for address across (solver-assumed solver)
+                           when (in-core-p address)
+                             collect assumption))))))
+    (t (solver-core solver))))
+
+(defun unsat-core (solver)
+  "Return the list of what is to blame for the answer :UNSAT of SOLVER's last check: the labels of
+the tracked assertions and then the assumptions, in their order, that alone contradict the other
+assertions.  They need not be a smallest such list.  If an assumption was no literal, all are in the
+list.  Signals Z3-ERROR if the last operation on the solver was not a check that said :UNSAT."
+  (let ((core (read-core solver)))
+    (append (car core) (cdr core))))

@@ -29,10 +29,12 @@
   (check-count 0 :type (unsigned-byte 62))
   (check-time 0 :type (unsigned-byte 62)))
 
-(defstruct (context (:constructor %make-context (foreign boolean-sort)) (:copier nil))
+(defstruct (context (:constructor %make-context (foreign)) (:copier nil))
   "A Z3 context: made by MAKE-CONTEXT, ended by CLOSE-CONTEXT."
   (foreign nil :type foreign-context :read-only t)
-  (boolean-sort 0 :type (unsigned-byte 64) :read-only t)
+  ;; The boolean sort, once it was asked for; the other sorts that were asked for, latest first.
+  (boolean nil :type t)
+  (sorts '() :type list)
   ;; The terms to release at the end of the innermost WITH-RELEASED-TERMS, latest first; :KEPT
   ;; outside of it, where terms live as long as the context.
   (trail :kept :type (or list (eql :kept))))
@@ -124,7 +126,7 @@ deleted by a later MAKE-CONTEXT.  Signals Z3-ERROR."
            (foreign (make-foreign-context pointer)))
       (z3-del-config config)
       (z3-set-error-handler pointer 0)
-      (let ((context (%make-context foreign (z3-mk-bool-sort pointer))))
+      (let ((context (%make-context foreign)))
         (sb-thread:with-mutex (**open-contexts-lock**)
           (push foreign **open-contexts**))
         (sb-ext:finalize context

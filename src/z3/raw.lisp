@@ -1,8 +1,13 @@
-;;;; The part of Z3's C API that is used, one function each, named as in z3_api.h.
+;;;; How the functions of Z3's C API are defined; the functions stand in the other files raw-*.lisp,
+;;;; by the topics of z3_api.h, one line each, under the names of z3_api.h with hyphens.
 ;;;;
-;;;; Each Z3 object is an address (HANDLE).  Nothing is checked here: the callers keep the rules of
-;;;; the API, which are no call without a live context, reference counts, the error code read after
-;;;; each call, and no interrupt inside a call (see context.lisp).
+;;;; Each Z3 object is an address (HANDLE), and so is each C string that Z3 returns; arrays, C
+;;;; strings and places for results that are passed to Z3 are pointers.  Nothing is checked here:
+;;;; the callers keep the rules of the API, which are no call without a live context, reference
+;;;; counts, the error code read after each call, and no interrupt inside a call (see context.lisp).
+;;;;
+;;;; Not mirrored: strings, sequences and regular expressions, floating-point numbers, relations and
+;;;; fixed points, callbacks of any kind.
 
 (in-package #:discrepancy-finder.z3)
 
@@ -11,89 +16,59 @@
 
 (cffi:defctype handle :uint64)
 
-(defmacro define-z3-function ((c-name lisp-name) result &rest parameters)
-  "Define LISP-NAME to call C-NAME; inline, so that handles are not boxed."
+;; C's `bool' is one byte; the bits above it are undefined in a result.
+(cffi:defctype bool (:boolean :uint8))
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defun z3-c-name (lisp-name)
+    "Return the name in C of the function LISP-NAME: that of Z3-MK-NOT is \"Z3_mk_not\"."
+    (substitute #\_ #\- (concatenate 'string "Z3"
+                                     (string-downcase (subseq (symbol-name lisp-name) 2)))))
+
+  (defun z3-parameters (parameters)
+    "Return PARAMETERS with their types; a bare symbol is a handle."
+    (loop for parameter in parameters
+          collect (if (symbolp parameter) (list parameter 'handle) parameter))))
+
+(defmacro define-z3-function (name result &rest parameters)
+  "Define NAME to call the C function of that name; inline, so that handles are not boxed."
   `(progn
-     (declaim (inline ,lisp-name))
-     (cffi:defcfun (,c-name ,lisp-name) ,result ,@parameters)))
+     (declaim (inline ,name))
+     (cffi:defcfun (,(z3-c-name name) ,name) ,result ,@(z3-parameters parameters))))
 
-;;; Contexts and errors
+(defun missing-function (c-name)
+  (misuse :missing-function "libz3 ~a has no function ~a" (z3-version) c-name))
 
-(define-z3-function ("Z3_mk_config" z3-mk-config) handle)
-(define-z3-function ("Z3_del_config" z3-del-config) :void (config handle))
-(define-z3-function ("Z3_mk_context_rc" z3-mk-context-rc) handle (config handle))
-(define-z3-function ("Z3_del_context" z3-del-context) :void (context handle))
-(define-z3-function ("Z3_interrupt" z3-interrupt) :void (context handle))
-(define-z3-function ("Z3_set_error_handler" z3-set-error-handler) :void
-  (context handle) (handler handle))
-(define-z3-function ("Z3_get_error_code" z3-get-error-code) :int (context handle))
-(define-z3-function ("Z3_get_error_msg" z3-get-error-msg) handle (context handle) (code :int))
+(defmacro define-versioned-z3-function (name result &rest parameters)
+  "Define NAME to call the C function of that name, which some versions of libz3 lack: it is looked
+up at each call, and Z3-ERROR is signaled if it is missing."
+  (let ((c-name (z3-c-name name)) (parameters (z3-parameters parameters)))
+    `(defun ,name ,(mapcar #'first parameters)
+       (cffi:foreign-funcall-pointer
+        (or (cffi:foreign-symbol-pointer ,c-name) (missing-function ,c-name))
+        ()
+        ,@(loop for (parameter type) in parameters collect type collect parameter)
+        ,result))))
 
-;;; Symbols and parameters
+;;; Versions and memory
 
-(define-z3-function ("Z3_mk_string_symbol" z3-mk-string-symbol) handle
-  (context handle) (text :pointer))
-(define-z3-function ("Z3_get_symbol_string" z3-get-symbol-string) handle
-  (context handle) (symbol handle))
-(define-z3-function ("Z3_mk_params" z3-mk-params) handle (context handle))
-(define-z3-function ("Z3_params_inc_ref" z3-params-inc-ref) :void
-  (context handle) (parameters handle))
-(define-z3-function ("Z3_params_dec_ref" z3-params-dec-ref) :void
-  (context handle) (parameters handle))
-(define-z3-function ("Z3_params_set_bool" z3-params-set-bool) :void
-  (context handle) (parameters handle) (key handle) (value :boolean))
-(define-z3-function ("Z3_params_set_uint" z3-params-set-uint) :void
-  (context handle) (parameters handle) (key handle) (value :unsigned-int))
+(define-z3-function z3-get-version :void
+  (major :pointer) (minor :pointer) (build :pointer) (revision :pointer))
+(define-z3-function z3-get-full-version handle)
+(define-z3-function z3-get-estimated-alloc-size :uint64)
+(define-z3-function z3-reset-memory :void)
+(define-z3-function z3-finalize-memory :void)
+(define-z3-function z3-toggle-warning-messages :void (enabled bool))
+(define-z3-function z3-enable-trace :void (tag :pointer))
+(define-z3-function z3-disable-trace :void (tag :pointer))
+(define-z3-function z3-open-log bool (file :pointer))
+(define-z3-function z3-append-log :void (text :pointer))
+(define-z3-function z3-close-log :void)
 
-;;; Terms
-
-(define-z3-function ("Z3_mk_bool_sort" z3-mk-bool-sort) handle (context handle))
-(define-z3-function ("Z3_mk_false" z3-mk-false) handle (context handle))
-(define-z3-function ("Z3_mk_const" z3-mk-const) handle
-  (context handle) (symbol handle) (sort handle))
-(define-z3-function ("Z3_mk_not" z3-mk-not) handle (context handle) (term handle))
-(define-z3-function ("Z3_mk_and" z3-mk-and) handle
-  (context handle) (count :unsigned-int) (terms :pointer))
-(define-z3-function ("Z3_mk_or" z3-mk-or) handle
-  (context handle) (count :unsigned-int) (terms :pointer))
-(define-z3-function ("Z3_mk_implies" z3-mk-implies) handle
-  (context handle) (left handle) (right handle))
-(define-z3-function ("Z3_mk_iff" z3-mk-iff) handle (context handle) (left handle) (right handle))
-(define-z3-function ("Z3_inc_ref" z3-inc-ref) :void (context handle) (term handle))
-(define-z3-function ("Z3_dec_ref" z3-dec-ref) :void (context handle) (term handle))
-(define-z3-function ("Z3_get_app_decl" z3-get-app-decl) handle (context handle) (term handle))
-(define-z3-function ("Z3_get_decl_name" z3-get-decl-name) handle
-  (context handle) (declaration handle))
-(define-z3-function ("Z3_get_bool_value" z3-get-bool-value) :int (context handle) (term handle))
-(define-z3-function ("Z3_ast_to_string" z3-ast-to-string) handle (context handle) (term handle))
-
-;;; Solvers and models
-
-(define-z3-function ("Z3_mk_solver" z3-mk-solver) handle (context handle))
-(define-z3-function ("Z3_mk_solver_for_logic" z3-mk-solver-for-logic) handle
-  (context handle) (logic handle))
-(define-z3-function ("Z3_solver_inc_ref" z3-solver-inc-ref) :void
-  (context handle) (solver handle))
-(define-z3-function ("Z3_solver_dec_ref" z3-solver-dec-ref) :void
-  (context handle) (solver handle))
-(define-z3-function ("Z3_solver_set_params" z3-solver-set-params) :void
-  (context handle) (solver handle) (parameters handle))
-(define-z3-function ("Z3_solver_assert" z3-solver-assert) :void
-  (context handle) (solver handle) (term handle))
-(define-z3-function ("Z3_solver_push" z3-solver-push) :void (context handle) (solver handle))
-(define-z3-function ("Z3_solver_pop" z3-solver-pop) :void
-  (context handle) (solver handle) (count :unsigned-int))
-(define-z3-function ("Z3_solver_get_num_scopes" z3-solver-get-num-scopes) :unsigned-int
-  (context handle) (solver handle))
-(define-z3-function ("Z3_solver_check_assumptions" z3-solver-check-assumptions) :int
-  (context handle) (solver handle) (count :unsigned-int) (assumptions :pointer))
-(define-z3-function ("Z3_solver_get_reason_unknown" z3-solver-get-reason-unknown) handle
-  (context handle) (solver handle))
-(define-z3-function ("Z3_solver_to_string" z3-solver-to-string) handle
-  (context handle) (solver handle))
-(define-z3-function ("Z3_solver_get_model" z3-solver-get-model) handle
-  (context handle) (solver handle))
-(define-z3-function ("Z3_model_inc_ref" z3-model-inc-ref) :void (context handle) (model handle))
-(define-z3-function ("Z3_model_dec_ref" z3-model-dec-ref) :void (context handle) (model handle))
-(define-z3-function ("Z3_model_eval" z3-model-eval) :boolean
-  (context handle) (model handle) (term handle) (completion :boolean) (value :pointer))
+(defun z3-version ()
+  "Return the version of the libz3 in use as a string, e.g. \"4.8.12.0\"."
+  (cffi:with-foreign-object (numbers :uint 4)
+    (flet ((place (index) (cffi:mem-aptr numbers :uint index)))
+      (z3-get-version (place 0) (place 1) (place 2) (place 3))
+      (format nil "~{~d~^.~}" (loop for index below 4
+                                    collect (cffi:mem-aref numbers :uint index))))))

@@ -2,17 +2,41 @@
 ;;;;
 ;;;; Entry points: MAKE-SOLVER, WITH-SOLVER, SOLVER-ASSERT, PUSH-SCOPE, POP-SCOPE; see check.lisp
 ;;;; for the questions.  A solver that is not closed lives as long as its context.
+;;;;
+;;;; Z3's engines rewrite what is asserted, so that it cannot be read back from them; the solver
+;;;; therefore keeps a RECORD of it, from which smt-lib.lisp writes.
+;;;;
+;;;; A TRACKED assertion F has a LABEL, which UNSAT-CORE gives if F is to blame.  It is asserted as
+;;;; p => F, where the literal p is assumed in every check while the scope of the assertion lasts.
 
 (in-package #:discrepancy-finder.z3)
 
-(defstruct (solver (:constructor %make-solver (context pointer timeout)) (:copier nil))
+(defstruct (tracked (:constructor make-tracked (label literal index)) (:copier nil))
+  "A tracked assertion: the address of the literal that is assumed for it, one reference of which it
+owns, and its index in the record."
+  (label nil :type t :read-only t)
+  (literal 0 :type (unsigned-byte 64) :read-only t)
+  (index 0 :type (unsigned-byte 32) :read-only t))
+
+(defstruct (solver (:constructor %make-solver (context pointer record timeout)) (:copier nil))
   "A solver of Z3: made by MAKE-SOLVER, ended by CLOSE-SOLVER or with its context."
   (context nil :type context :read-only t)
   ;; 0 when the solver was closed.
   (pointer 0 :type (unsigned-byte 64))
+  ;; Z3's vector of the assertions, and its size at the beginning of each scope, latest first.
+  (record 0 :type (unsigned-byte 64))
+  (marks '() :type list)
+  ;; The tracked assertions, latest first.
+  (tracked '() :type list)
   (timeout nil :type (or null real) :read-only t)
   ;; NIL; :UNREAD: the last check said :SAT and Z3 holds the model; or the model's address.
-  (model nil :type (or null (eql :unread) (unsigned-byte 64))))
+  (model nil :type (or null (eql :unread) (unsigned-byte 64)))
+  ;; NIL; :UNREAD: the last check said :UNSAT and Z3 holds the core; or (labels . assumptions).
+  (core nil :type (or null (eql :unread) cons))
+  ;; What the last check assumed: its objects, their addresses, and the clause set of numbers.
+  (assumptions '() :type list)
+  (assumed (make-handles 0) :type handles)
+  (asker nil :type t))
 
 (setf (documentation 'solver-p 'function)
       "Return true if its argument is a SOLVER."
@@ -41,29 +65,37 @@
   (let ((longest (1- (expt 2 32))))
     (if seconds (min longest (max 1 (ceiling (* 1000 seconds)))) longest)))
 
-(defun configure-solver (solver timeout)
-  "Let the checks of SOLVER end after TIMEOUT seconds (a real, or NIL for no limit)."
+(defun configure-solver (solver timeout &optional seed)
+  "Let the checks of SOLVER end after TIMEOUT seconds (a real, or NIL for no limit); if SEED is
+given, let it start from that."
   (let ((milliseconds (timeout-milliseconds timeout)))
     (with-encoded-text (timeout-key "timeout")
       ;; Z3 would put its own handler of SIGINT in the place of SBCL's.
       (with-encoded-text (signal-key "ctrl_c")
-        (calling-solver (pointer address solver)
-          (let ((parameters (z3-mk-params pointer)))
-            (z3-params-inc-ref pointer parameters)
-            (z3-params-set-bool pointer parameters (z3-mk-string-symbol pointer signal-key) nil)
-            (z3-params-set-uint pointer parameters (z3-mk-string-symbol pointer timeout-key)
-                                milliseconds)
-            (z3-params-dec-ref pointer
-                               (prog1 parameters
-                                 (z3-solver-set-params pointer address parameters)))))))))
+        (with-encoded-text (seed-key "random_seed")
+          (calling-solver (pointer address solver)
+            (let ((parameters (z3-mk-params pointer)))
+              (z3-params-inc-ref pointer parameters)
+              (z3-params-set-bool pointer parameters (z3-mk-string-symbol pointer signal-key) nil)
+              (z3-params-set-uint pointer parameters (z3-mk-string-symbol pointer timeout-key)
+                                  milliseconds)
+              (when seed
+                (z3-params-set-uint pointer parameters (z3-mk-string-symbol pointer seed-key)
+                                    seed))
+              (z3-params-dec-ref pointer
+                                 (prog1 parameters
+                                   (z3-solver-set-params pointer address parameters))))))))))
 
-(defun make-solver (context &key (logic "QF_FD") timeout)
+(defun make-solver (context &key (logic "QF_FD") timeout seed)
   "Return a new SOLVER in CONTEXT.  LOGIC is the name of an SMT-LIB logic, which picks Z3's engine,
 or NIL for Z3's default engine; QF_FD, propositions and finite domains, is the one measured best for
-propositions.  A check ends after TIMEOUT seconds of wall-clock time (a positive real, or NIL for no
-limit).  Signals Z3-ERROR, e.g. for an unknown LOGIC."
+propositions, and cannot tell where numbers occur.  A check ends after TIMEOUT seconds of wall-clock
+time (a positive real, or NIL for no limit).  The search starts from SEED, a natural number, or from
+Z3's own if it is NIL; the same calls with the same seed give the same answers and models.  Signals
+Z3-ERROR, e.g. for an unknown LOGIC."
   (check-type logic (or null string))
   (check-type timeout (or null (real (0))))
+  (check-type seed (or null (unsigned-byte 32)))
   (let ((solver (with-encoded-text (text (or logic ""))
                   (calling-z3 (pointer context)
                     (let ((address (foreign:with-c-float-traps
@@ -73,16 +105,25 @@ limit).  Signals Z3-ERROR, e.g. for an unknown LOGIC."
                                          (z3-mk-solver pointer)))))
                       (unless (zerop address)
                         (z3-solver-inc-ref pointer address)
-                        (%make-solver context address timeout)))))))
-    (configure-solver solver timeout)
+                        (let ((record (z3-mk-ast-vector pointer)))
+                          (z3-ast-vector-inc-ref pointer record)
+                          (%make-solver context address record timeout))))))))
+    (configure-solver solver timeout seed)
     solver))
 
-(defun forget-model (solver)
-  "Drop the model of SOLVER's last check."
+(defun forget-answer (solver)
+  "Drop the model or core of SOLVER's last check."
+  (setf (solver-core solver) nil)
   (let ((model (shiftf (solver-model solver) nil)))
     (when (integerp model)
       (calling-z3 (pointer (solver-context solver))
         (z3-model-dec-ref pointer model)))))
+
+(defun forget-tracked (pointer solver size)
+  "Release the tracked assertions of SOLVER behind the first SIZE ones of the record."
+  (loop while (and (solver-tracked solver)
+                   (>= (tracked-index (first (solver-tracked solver))) size))
+        do (z3-dec-ref pointer (tracked-literal (pop (solver-tracked solver))))))
 
 (defun close-solver (solver)
   "Release SOLVER; do nothing if that was done before or its context is closed.  Using it afterwards
@@ -91,7 +132,9 @@ signals Z3-ERROR."
     (let ((pointer (context-pointer (solver-context solver)))
           (address (shiftf (solver-pointer solver) 0)))
       (unless (or (zerop pointer) (zerop address))
-        (forget-model solver)
+        (forget-answer solver)
+        (forget-tracked pointer solver 0)
+        (z3-ast-vector-dec-ref pointer (shiftf (solver-record solver) 0))
         (z3-solver-dec-ref pointer address))))
   (values))
 
@@ -105,45 +148,90 @@ has them and closed at the end; return the values of BODY."
 
 ;;; Assertions
 
-(defun solver-assert (solver proposition)
+(declaim (inline assert-and-record))
+(defun assert-and-record (pointer address record term)
+  "Assert TERM and record it; return true.  Return NIL if Z3 refuses it."
+  (z3-solver-assert pointer address term)
+  (when (zerop (z3-get-error-code pointer))
+    (z3-ast-vector-push pointer record term)
+    t))
+
+(defun label-text (label)
+  (typecase label
+    (string label)
+    (symbol (string-downcase label))
+    (t "tracked")))
+
+(defun assert-tracked (solver proposition label)
+  "Add PROPOSITION to the current scope of SOLVER under LABEL."
+  (let* ((context (solver-context solver))
+         (term (argument-pointer proposition (boolean-sort context)))
+         (literal (if (term-p label) (live-pointer label context) 0)))
+    (forget-answer solver)
+    (with-encoded-text (prefix (label-text label))
+      (calling-solver (pointer address solver)
+        (let ((literal (if (zerop literal)
+                           (z3-mk-fresh-const pointer prefix (sort-pointer (boolean-sort context)))
+                           literal))
+              (index (z3-ast-vector-size pointer (solver-record solver))))
+          (z3-inc-ref pointer literal)
+          (if (assert-and-record pointer address (solver-record solver)
+                                 (z3-mk-implies pointer literal term))
+              (push (make-tracked label literal index) (solver-tracked solver))
+              (z3-set-error pointer (prog1 (z3-get-error-code pointer)
+                                      (z3-dec-ref pointer literal)))))))))
+
+(defun solver-assert (solver proposition &key track)
   "Add PROPOSITION to the current scope of SOLVER.  The model of the last check is gone then.
-Signals Z3-ERROR."
+
+If TRACK is given UNSAT-CORE tells whether PROPOSITION was needed to contradict the others: TRACK is
+its label, any object that is not NIL.  Assertions with EQUAL labels are one for UNSAT-CORE.  A TERM
+as label must be a literal; that is assumed to be true then, and is no other assertion's.  Tracking
+makes checks slower.  Signals Z3-ERROR."
   (check-type proposition proposition)
   (let ((term (and (term-p proposition)
-                   (live-pointer proposition (solver-context solver)))))
-    (forget-model solver)
-    (unless (eq proposition t)
-      (calling-solver (pointer address solver)
-        (z3-solver-assert pointer address (or term (z3-mk-false pointer))))))
+                   (proposition-pointer 'solver-assert proposition (solver-context solver)))))
+    (cond ((null track)
+           (forget-answer solver)
+           (unless (eq proposition t)
+             (calling-solver (pointer address solver)
+               (assert-and-record pointer address (solver-record solver)
+                                  (or term (z3-mk-false pointer))))))
+          ((and (term-p track) (not (literal-p track)))
+           (misuse :invalid-argument "~a is no literal and cannot be a label" (term-text track)))
+          (t (assert-tracked solver proposition track))))
   (values))
+
+;;; Scopes
 
 (defun push-scope (solver)
   "Open a scope in SOLVER: POP-SCOPE removes what is asserted from now on.  The model of the last
 check is gone then.  Signals Z3-ERROR."
-  (forget-model solver)
+  (forget-answer solver)
   (calling-solver (pointer address solver)
-    (foreign:with-c-float-traps (z3-solver-push pointer address)))
+    (foreign:with-c-float-traps (z3-solver-push pointer address))
+    (when (zerop (z3-get-error-code pointer))
+      (push (z3-ast-vector-size pointer (solver-record solver)) (solver-marks solver))))
   (values))
 
 (defun scope-count (solver)
   "Return the number of open scopes of SOLVER."
-  (calling-solver (pointer address solver)
-    (z3-solver-get-num-scopes pointer address)))
+  (length (solver-marks solver)))
 
 (defun pop-scope (solver &optional (count 1))
   "Close the COUNT latest scopes of SOLVER.  The model of the last check is gone then.  Signals
 Z3-ERROR, and changes nothing, if there are fewer scopes."
   (check-type count (unsigned-byte 31))
-  (let ((scopes (scope-count solver)))
-    (when (> count scopes)
-      (misuse :index-out-of-bounds
-              "~d scope~:p cannot be popped where ~d ~:*~[are~;is~:;are~] open" count scopes)))
-  (forget-model solver)
+  (calling-solver (pointer address solver) 0)
+  (when (> count (scope-count solver))
+    (misuse :index-out-of-bounds "~d scope~:p cannot be popped where ~d ~:*~[are~;is~:;are~] open"
+            count (scope-count solver)))
+  (forget-answer solver)
   (calling-solver (pointer address solver)
-    (foreign:with-c-float-traps (z3-solver-pop pointer address count)))
+    (foreign:with-c-float-traps (z3-solver-pop pointer address count))
+    (when (plusp count)
+      (let ((size (nth (1- count) (solver-marks solver))))
+        (setf (solver-marks solver) (nthcdr count (solver-marks solver)))
+        (forget-tracked pointer solver size)
+        (z3-ast-vector-resize pointer (solver-record solver) size))))
   (values))
-
-(defun solver-smt-lib (solver)
-  "Return what SOLVER holds as a string of SMT-LIB 2 commands: declarations and assertions."
-  (calling-solver (pointer address solver)
-    (decode (z3-solver-to-string pointer address))))

@@ -2,9 +2,9 @@
 ;;;;
 ;;;; The names of a theory are compared by their characters, whatever package they were read in, so
 ;;;; that a theory can be used from any package: inside the layer they are keywords.  A ground atom
-;;;; is a list of keywords, (:robot-in :r1), never a concatenated string, so that different atoms
-;;;; cannot be mistaken for each other.  In texts a name without lower-case letters is printed in
-;;;; lower case; others stand between bars, as Lisp prints them.
+;;;; is a list of keywords, integers and such lists, (:robot-in :r1), never a concatenated string, so
+;;;; that different atoms cannot be mistaken for each other.  In texts a name without lower-case
+;;;; letters is printed in lower case; others stand between bars, as Lisp prints them.
 
 (in-package #:discrepancy-finder.event-calculus)
 
@@ -28,13 +28,28 @@
                    (write-char character stream))
           (write-char #\| stream)))))
 
+(defun term-text (term)
+  (etypecase term
+    (integer (princ-to-string term))
+    (symbol (name-text term))
+    (cons (atom-text term))))
+
 (defun atom-text (atom)
-  "Return the text of the ground atom ATOM, a list of symbols, such as \"(robot-in r1)\"."
-  (format nil "(~{~a~^ ~})" (mapcar #'name-text atom)))
+  "Return the text of the ground atom ATOM, a list of symbols, integers and such lists, such as
+\"(robot-in r1)\"."
+  (format nil "(~{~a~^ ~})" (mapcar #'term-text atom)))
 
 (defun text-atom (text candidates)
   "Return the ground atom among the list CANDIDATES whose text is TEXT, or NIL."
   (find text candidates :key #'atom-text :test #'string=))
+
+(defun atom-keywords (term)
+  "Return TERM, an atom of symbols of any package, with keywords in their place."
+  (typecase term
+    (null nil)
+    (symbol (name-keyword term))
+    (cons (cons (atom-keywords (car term)) (atom-keywords (cdr term))))
+    (t term)))
 
 ;;; Variables are symbols whose name begins with a question mark.  A variable's sort is its name
 ;;; without the question mark and trailing digits.
@@ -45,8 +60,10 @@
          (and (> (length name) 1) (char= (char name 0) #\?)))))
 
 (defun variable-sort-name (variable)
-  (name-keyword
-   (make-symbol (string-right-trim "0123456789" (subseq (symbol-name variable) 1)))))
+  (or (get variable 'sort-name)
+      (setf (get variable 'sort-name)
+            (name-keyword
+             (make-symbol (string-right-trim "0123456789" (subseq (symbol-name variable) 1)))))))
 
 (defun time-variable-p (thing)
   (and (variable-p thing) (eq (variable-sort-name thing) :time)))

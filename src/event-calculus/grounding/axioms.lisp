@@ -1,0 +1,365 @@
+;;;; Making a theory ground.
+;;;;
+;;;; GROUND makes the axioms about one arbitrary timepoint ground, once for all timepoints;
+;;;; HORIZON-SENTENCES does the rest for given timepoints.  Which is which is decided by
+;;;; RELATIVE-FORM-P.
+
+(in-package #:discrepancy-finder.event-calculus)
+
+;;; Axioms about one arbitrary timepoint
+
+(defun free-variables (form &optional bound)
+  "Return the free variables of FORM in order of appearance."
+  (cond ((variable-p form) (unless (member form bound) (list form)))
+        ((atom form) '())
+        ((member (first form) '(:forall :exists))
+         (free-variables (third form) (append (second form) bound)))
+        (t (remove-duplicates (mapcan (lambda (part) (free-variables part bound))
+                                      (copy-list form))
+                              :from-end t))))
+
+(defun strip-quantifiers (form)
+  "Return FORM without the universal quantifiers around it."
+  (loop while (and (consp form) (eq (first form) :forall))
+        do (setf form (third form)))
+  form)
+
+(defun argument-sorts (theory form)
+  "Return the sorts of the arguments of the atom or term FORM."
+  (rest (or (and (eq (first form) :value-at) '(:value-at :numeric-fluent :time))
+            (signature theory form)
+            (assoc (first form) (theory-numeric-fluents theory))
+            (assoc (first form) (theory-predicates theory))
+            (assoc (first form) (theory-fluents theory))
+            (assoc (first form) (theory-events theory))
+            (nth-value 1 (reified-symbol theory (first form)))
+            (first (find-function theory (first form))))))
+
+(defun time-of-term (theory term bound)
+  "Return the time variable of TERM if it is that, or that plus or minus something without time
+variables and variables of BOUND; else NIL."
+  (flet ((time-p (term) (and (variable-p term) (eq (variable-sort theory term) :time)))
+         (distance-p (term)
+           (notany (lambda (variable)
+                     (or (eq (variable-sort theory variable) :time) (member variable bound)))
+                   (term-variables term))))
+    (cond ((time-p term) (and (not (member term bound)) term))
+          ((and (consp term) (member (first term) '(:+ :-)) (= (length term) 3))
+           (destructuring-bind (operator left right) term
+             (cond ((and (time-p left) (distance-p right)) (time-of-term theory left bound))
+                   ((and (eq operator :+) (time-p right) (distance-p left))
+                    (time-of-term theory right bound))))))))
+
+(defun relative-form-p (theory form)
+  "Return true, and the time variable if there is one, if FORM is about one arbitrary timepoint: it
+has one free time variable, which only stands in times of atoms."
+  (let ((variable nil))
+    (labels ((fail () (return-from relative-form-p nil))
+             (check-time-term (term bound)
+               (let ((found (or (time-of-term theory term bound) (fail))))
+                 (if (and variable (not (eq variable found)))
+                     (fail)
+                     (setf variable found))))
+             (check-arguments (form bound)
+               (loop for term in (rest form)
+                     for sort in (argument-sorts theory form)
+                     do (if (eq sort :time)
+                            (check-time-term term bound)
+                            (check-term term bound))))
+             (check-term (term bound)
+               (cond ((and (variable-p term) (eq (variable-sort theory term) :time)) (fail))
+                     ((atom term))
+                     ((member (first term) '(:+ :- :* :/ :mod :=))
+                      (dolist (part (rest term)) (check-term part bound)))
+                     ((eq (first term) :value-at) (check-arguments term bound))
+                     (t (dolist (sort (argument-sorts theory term))
+                          (when (eq sort :time) (fail)))
+                        (dolist (part (rest term)) (check-term part bound)))))
+             (check (form bound)
+               (case (if (consp form) (first form) :and)
+                 ((:and :or :not :implies :iff)
+                  (when (consp form)
+                    (dolist (part (rest form)) (check part bound))))
+                 ((:forall :exists)
+                  (check (third form) (append (second form) bound)))
+                 (:initially (fail))
+                 (t (if (member (first form) *comparisons*)
+                        (dolist (part (rest form)) (check-term part bound))
+                        (progn
+                          (when (< 1 (count :time (rest (assoc (first form)
+                                                               (theory-predicates theory)))))
+                            (fail))
+                          (check-arguments form bound)))))))
+      (check (strip-quantifiers form) '())
+      (values (and variable t) variable))))
+
+;;; Instances
+
+(defun call-with-instances (ground form variables time-variable filters function)
+  "Call FUNCTION with the compilation for FORM's free VARIABLES; it returns a function that is
+called with each environment.  TIME-VARIABLE, if any, is bound to 0."
+  (declare (ignore form))
+  (multiple-value-bind (compilation level)
+      (extend-compilation (make-compilation :ground ground)
+                          (if time-variable (cons time-variable variables) variables))
+    (let ((environment (make-array +environment-size+ :initial-element nil))
+          (instance (funcall (the function function) compilation)))
+      (when time-variable
+        (setf (svref environment (cdr (assoc time-variable (compilation-slots compilation)))) 0))
+      (funcall (the function (compile-instances compilation variables filters level))
+               (lambda (environment)
+                 (setf *span* (cons most-positive-fixnum most-negative-fixnum))
+                 (funcall (the function instance) environment))
+               environment))))
+
+(defun bindings-in (compilation environment variables)
+  (loop for variable in variables
+        collect (cons variable
+                      (svref environment (cdr (assoc variable (compilation-slots compilation)))))))
+
+(defun conditions-of (condition)
+  (filters-of (list :implies condition '(:and)) t))
+
+(defun add-effect (ground effect)
+  "Put EFFECT into the tables of GROUND."
+  (let ((event (effect-event effect)) (fluent (effect-fluent effect)))
+    (push effect (svref (ground-theory-effects ground) event))
+    (push effect (svref (ground-theory-effects-on ground) fluent))
+    (when (and (eq (effect-kind effect) :releases)
+               (null (svref (ground-theory-release ground) fluent)))
+      (setf (svref (ground-theory-release ground) fluent) :possibly))))
+
+(defun ground-effect (ground axiom condition head)
+  "Add the instances of an effect axiom to GROUND."
+  (let* ((theory (ground-theory-theory ground))
+         (time-variable (and *relative*
+                             (nth-value 1 (relative-form-p theory
+                                                           (list :implies condition head)))))
+         (variables (remove time-variable (free-variables (list :implies condition head)))))
+    (call-with-instances
+     ground head variables time-variable (and (consp condition) (conditions-of condition))
+     (lambda (compilation)
+       (let* ((numeric (numeric-atom-p theory (third head)))
+              (assigns (eq (first head) :assigns))
+              (event (compile-event compilation (second head)))
+              (fluent (if numeric
+                          (compile-numeric compilation (third head))
+                          (compile-fluent compilation (third head))))
+              (term (if assigns
+                        (compile-number compilation (fourth head))
+                        (compile-constant nil)))
+              (time (compile-time compilation (first (last head)) :event t))
+              (guard (if (eq condition t)
+                         (compile-constant t)
+                         (compile-formula compilation condition))))
+         (declare (type function event fluent term time guard))
+         (lambda (environment)
+           (let* ((time (funcall time environment))
+                  (guard (funcall guard environment))
+                  (event (funcall event environment))
+                  (fluent (funcall fluent environment))
+                  (effect (make-effect :kind (first head) :event event :fluent fluent
+                                       :guard guard :time (if *relative* nil time) :axiom axiom
+                                       :term (funcall term environment)
+                                       :bindings (bindings-in compilation environment
+                                                              variables))))
+             (cond ((null guard))
+                   (numeric (push effect
+                                  (svref (ground-theory-effects-on-numeric ground) fluent)))
+                   (t (add-effect ground effect))))))))))
+
+(defun ground-trajectory (ground axiom condition head)
+  "Add the instances of an axiom of a trajectory to GROUND."
+  (let* ((theory (ground-theory-theory ground))
+         (time-variable (and *relative*
+                             (nth-value 1 (relative-form-p theory
+                                                           (list :implies condition head)))))
+         (variables (remove time-variable (free-variables (list :implies condition head)))))
+    (call-with-instances
+     ground head variables time-variable (and (consp condition) (conditions-of condition))
+     (lambda (compilation)
+       (destructuring-bind (kind cause time change offset) head
+         (let* ((numeric (numeric-trajectory-p theory head))
+               (cause (compile-fluent compilation cause))
+               (time (compile-time compilation time))
+               (fluent (if numeric
+                           (compile-numeric compilation (second change))
+                           (compile-fluent compilation change)))
+               (term (if numeric
+                         (compile-number compilation (third change))
+                         (compile-constant nil)))
+               (offset (compile-term compilation offset))
+               (guard (if (eq condition t)
+                          (compile-constant t)
+                          (compile-formula compilation condition))))
+           (declare (type function cause time fluent term offset guard))
+           (lambda (environment)
+             (let ((time (funcall time environment))
+                   (guard (funcall guard environment))
+                   (offset (funcall offset environment))
+                   (cause (funcall cause environment))
+                   (fluent (funcall fluent environment)))
+               (when (and guard (typep offset '(integer 1)))
+                 (push (make-gradual-change
+                        :kind kind :cause cause :fluent fluent :offset offset :guard guard
+                        :term (funcall term environment)
+                        :time (if *relative* nil time) :axiom axiom
+                        :bindings (bindings-in compilation environment variables))
+                       (svref (ground-theory-changes ground) cause)))))))))))
+
+(defun ground-sentence (ground axiom formula)
+  "Return the instances of the sentence FORMULA, in order."
+  (let* ((theory (ground-theory-theory ground))
+         (formula (strip-quantifiers formula))
+         (time-variable (and *relative* (nth-value 1 (relative-form-p theory formula))))
+         (variables (remove time-variable (free-variables formula)))
+         (sentences '()))
+    (call-with-instances
+     ground formula variables time-variable (filters-of formula t)
+     (lambda (compilation)
+       (let ((function (compile-formula compilation formula)))
+         (declare (type function function))
+         (lambda (environment)
+           (let ((formula (funcall function environment)))
+             (unless (eq formula t)
+               (destructuring-bind (first . last) *span*
+                 (let ((timeless (> first last)))
+                   (push (make-sentence :axiom axiom :formula formula
+                                        :bindings (bindings-in compilation environment variables)
+                                        :first (if timeless 0 first) :last (if timeless 0 last)
+                                        :absolute (or timeless (not *relative*)))
+                         sentences)))))))))
+    (nreverse sentences)))
+
+(defun ground-value (ground axiom formula)
+  "Note the values of a function that FORMULA, (= (function term*) term), gives."
+  (declare (ignore axiom))
+  (let ((formula (strip-quantifiers formula)))
+    (call-with-instances
+     ground formula (free-variables formula) nil '()
+     (lambda (compilation)
+       (let ((key (compile-symbol-term
+                   compilation (second formula)
+                   (first (find-function (ground-theory-theory ground) (first (second formula))))))
+             (value (compile-term compilation (third formula))))
+         (declare (type function key value))
+         (lambda (environment)
+           (setf (gethash (funcall key environment) (ground-theory-function-values ground))
+                 (funcall value environment))))))))
+
+;;; Whole theories
+
+(defun ground-clause (ground axiom kind condition head)
+  "Add the instances of one clause of AXIOM to GROUND; return those that are sentences."
+  (ecase kind
+    (:effect (ground-effect ground axiom condition head) '())
+    (:trajectory (ground-trajectory ground axiom condition head) '())
+    (:value (ground-value ground axiom head) '())
+    (:sentence (ground-sentence ground axiom head))
+    (:initially (ground-sentence ground axiom (second head)))))
+
+(defun make-empty-ground-theory (theory)
+  (let* ((fluents (coerce (ground-symbols theory (theory-fluents theory) nil) 'simple-vector))
+         (numerics (coerce (ground-symbols theory (theory-numeric-fluents theory) nil)
+                           'simple-vector))
+         (events (coerce (ground-symbols theory (theory-events theory) nil) 'simple-vector))
+         (always (theory-non-inertial theory))
+         (manual (theory-manual-release theory)))
+    (flet ((lists (atoms) (make-array (length atoms) :initial-element '())))
+      (make-ground-theory
+       :theory theory :fluents fluents :events events :numerics numerics
+       :numeric-index (index-table numerics) :effects-on-numeric (lists numerics)
+       :fluent-index (index-table fluents) :event-index (index-table events)
+       :effects (lists events) :effects-on (lists fluents) :changes (lists fluents)
+       :release (map 'simple-vector
+                     (lambda (fluent)
+                       (cond ((member (first fluent) always) :always)
+                             ((or (eq manual t) (member (first fluent) manual)) :possibly)))
+                     fluents)))))
+
+(defun mentions-effects-p (form)
+  "Return true if the meaning of FORM depends on the effect axioms."
+  (and (consp form)
+       (or (member (first form) '(:initiates :terminates :releases :stopped-in :started-in
+                                  :clipped :declipped))
+           (some #'mentions-effects-p (rest form)))))
+
+(defun clause-relative-p (theory clause absolute-effects)
+  "Return true if CLAUSE, (axiom kind condition head), is made ground once for all timepoints.
+ABSOLUTE-EFFECTS is true if an effect axiom is not."
+  (destructuring-bind (axiom kind condition head) clause
+    (declare (ignore axiom))
+    (or (member kind '(:initially :value))
+        (and (relative-form-p theory (if (eq condition t) head (list :implies condition head)))
+             (not (and absolute-effects (eq kind :sentence) (mentions-effects-p head)))))))
+
+(defparameter *clause-order* '(:value :effect :trajectory :initially :sentence)
+  "The order in which clauses are made ground, so that each finds what it refers to.")
+
+(defun add-clauses (ground clauses)
+  "Make CLAUSES, a list of (axiom kind condition head), ground; return the sentences and the initial
+conditions among them."
+  (let ((sentences '()) (initial '()))
+    (dolist (wanted *clause-order* (values (nreverse sentences) (nreverse initial)))
+      (loop for (axiom kind condition head) in clauses
+            when (eq kind wanted)
+              do (dolist (sentence (ground-clause ground axiom kind condition head))
+                   (if (eq kind :initially)
+                       (push sentence initial)
+                       (push sentence sentences)))))))
+
+(defun one-event-clause-p (theory clause)
+  "Return true if CLAUSE says that events that happen at the same timepoint are the same."
+  (let ((form (strip-quantifiers (fourth clause))))
+    (and (eq (second clause) :sentence)
+         (eq (first form) :implies)
+         (let ((premise (second form)) (conclusion (third form)))
+           (and (eq (first premise) :and) (= (length premise) 3) (eq (first conclusion) :=)
+                (destructuring-bind (first second) (rest premise)
+                  (and (eq (first first) :happens) (eq (first second) :happens)
+                       (eq (third first) (third second)) (variable-p (third first))
+                       (every (lambda (term)
+                                (and (variable-p term) (eq (variable-sort theory term) :event)))
+                              (list (second first) (second second)))
+                       (not (eq (second first) (second second)))
+                       (or (equal (rest conclusion) (list (second first) (second second)))
+                           (equal (rest conclusion)
+                                  (list (second second) (second first)))))))))))
+
+(defun ground (theory)
+  "Return the GROUND-THEORY of THEORY."
+  (let* ((ground (make-empty-ground-theory theory))
+         (*relative* t)
+         (*span* (cons 0 0))
+         (all-clauses (loop for axiom in (theory-axioms theory)
+                            append (loop for clause in (axiom-clauses axiom theory)
+                                         collect (cons axiom clause))))
+         (clauses (remove-if (lambda (clause) (one-event-clause-p theory clause)) all-clauses))
+         (absolute-effects
+           (notevery (lambda (clause)
+                       (or (not (eq (second clause) :effect))
+                           (clause-relative-p theory clause nil)))
+                     clauses))
+         (absolute (remove-if (lambda (clause)
+                                (clause-relative-p theory clause absolute-effects))
+                              clauses)))
+    (setf (ground-theory-absolute-clauses ground) absolute
+          (ground-theory-one-event-at-a-time ground) (/= (length clauses) (length all-clauses)))
+    (multiple-value-bind (sentences initial)
+        (add-clauses ground (remove-if (lambda (clause) (member clause absolute)) clauses))
+      (setf (ground-theory-sentences ground) sentences
+            (ground-theory-initial-conditions ground) initial))
+    ground))
+
+(defun ground-for-horizon (ground horizon)
+  "Return GROUND together with the instances of its other axioms for the timepoints HORIZON."
+  (let* ((copy (copy-with-own-effects ground))
+         (*relative* nil)
+         (*horizon* horizon)
+         (*span* (cons 0 0)))
+    (multiple-value-bind (sentences initial)
+        (add-clauses copy (ground-theory-absolute-clauses ground))
+      (declare (ignore initial))
+      (setf (ground-theory-sentences copy)
+            (append (ground-theory-sentences ground) sentences))
+      copy)))

@@ -1,0 +1,274 @@
+;;;; Outlines: what progression has to know of a ground theory, found out once.
+;;;;
+;;;; An OUTLINE says for each event what it changes, and sorts the sentences by when they have to be
+;;;; looked at: DEMANDS are the sentences that a step must not violate.  A sentence about one
+;;;; timepoint is looked at where one of its fluents has changed, one that is true unless some event
+;;;; happens where that event does (a precondition, as a rule), all others at each step.
+;;;; Entry point: GROUND-OUTLINE.
+
+(in-package #:discrepancy-finder.event-calculus)
+
+(defstruct (demand (:copier nil))
+  "That FORMULA, which spans the distances FIRST to LAST, is true.  AXIOM is the axiom behind it, or
+the exclusion, a list.  FLUENTS are the numbers of the fluents in it."
+  (axiom nil :type (or null axiom cons) :read-only t)
+  (formula nil :type (or boolean cons) :read-only t)
+  (first 0 :type fixnum :read-only t)
+  (last 0 :type fixnum :read-only t)
+  (fluents '() :type list :read-only t))
+
+(defstruct (influence (:copier nil))
+  "What an event does to the fluent with the number FLUENT: the guards of the effects.  AHEAD-P is
+true if one of them looks ahead."
+  (fluent 0 :type fixnum :read-only t)
+  (initiates '() :type list)
+  (terminates '() :type list)
+  (releases '() :type list)
+  (ahead-p nil :type boolean))
+
+(defstruct (outline (:copier nil))
+  "What progression has to know of GROUND.  FIRST-TIME is its first timepoint."
+  (ground nil :type ground-theory :read-only t)
+  (first-time 0 :type integer :read-only t)
+  ;; for each event its influences
+  (influences #() :type simple-vector)
+  ;; tables from numbers to definitions
+  (events (make-hash-table) :type hash-table)
+  (predicates (make-hash-table) :type hash-table)
+  ;; the numbers of the fluents that can be released, and of the causes of trajectories
+  (loose-fluents '() :type list)
+  (causes '() :type list)
+  ;; for each timeless atom T, NIL or :OPEN, and what must be true of these
+  (statics #() :type simple-vector)
+  (static-demands '() :type list)
+  ;; demands on one timepoint: for each fluent, and those that also depend on other things
+  (state-demands-of #() :type simple-vector)
+  (state-demands '() :type list)
+  ;; demands on a step: for each event, and for all
+  (event-demands-of #() :type simple-vector)
+  (other-demands '() :type list)
+  ;; pairs (:mutex or :xor . numbers) of events
+  (exclusions '() :type list)
+  ;; what is not exact whatever happens: a list of (axiom . reason)
+  (limits '() :type list)
+  ;; the instances of the axioms that compare timepoints or name them by number
+  (dated nil))
+
+;;; Influences
+
+(defun group-effects (effects)
+  "Return the influences that EFFECTS, those of one event, amount to."
+  (let ((influences '()))
+    (dolist (effect effects (nreverse influences))
+      (let ((influence (or (find (effect-fluent effect) influences :key #'influence-fluent)
+                           (first (push (make-influence :fluent (effect-fluent effect))
+                                        influences))))
+            (guard (effect-guard effect)))
+        (ecase (effect-kind effect)
+          (:initiates (push guard (influence-initiates influence)))
+          (:terminates (push guard (influence-terminates influence)))
+          (:releases (push guard (influence-releases influence))))
+        (when (looks-ahead-p guard)
+          (setf (influence-ahead-p influence) t))))))
+
+(defun all-influences (ground)
+  (map 'simple-vector (lambda (effects) (group-effects (remove-if #'effect-time effects)))
+       (ground-theory-effects ground)))
+
+;;; Sorting the sentences
+
+(defun formula-fluents (formula)
+  "Return the numbers of the fluents in the ground FORMULA, in order."
+  (let ((fluents '()))
+    (map-atoms (lambda (atom)
+                 (when (eq (first atom) :fluent) (pushnew (second atom) fluents)))
+               formula)
+    (sort fluents #'<)))
+
+(defun effective-last (sentence predicates)
+  "Return the last distance that must be known to evaluate SENTENCE: its predicates may depend on
+the events of their timepoint."
+  (let ((last (sentence-last sentence)))
+    (map-atoms (lambda (atom)
+                 (when (eq (first atom) :predicate)
+                   (let ((definition (gethash (second atom) predicates)))
+                     (when definition
+                       (setf last (max last (+ (third atom) (definition-extent definition))))))))
+               (sentence-formula sentence))
+    last))
+
+(defun sentence-demand (sentence predicates)
+  (make-demand :axiom (sentence-axiom sentence)
+              :formula (plain-parts-first (sentence-formula sentence))
+              :first (sentence-first sentence) :last (effective-last sentence predicates)
+              :fluents (formula-fluents (sentence-formula sentence))))
+
+(defun guarding-events (formula)
+  "Return the numbers of events at distance 0, as few as possible, such that FORMULA is true unless
+one of them happens; or NIL if there are none."
+  (let ((events '()))
+    (map-atoms (lambda (atom)
+                 (when (and (eq (first atom) :event) (eql (third atom) 0))
+                   (pushnew (second atom) events)))
+               formula)
+    (flet ((without (formula event) (replace-atom formula (list :event event 0) nil)))
+      (let ((single (find-if (lambda (event) (eq t (without formula event))) events)))
+        (cond (single (list single))
+              ((eq t (reduce #'without events :initial-value formula)) events))))))
+
+(defun file-demand (outline demand)
+  "Add DEMAND to the list of OUTLINE where it belongs."
+  (let* ((formula (demand-formula demand))
+         (once (and (zerop (demand-first demand)) (zerop (demand-last demand))))
+         (guards (and (zerop (demand-first demand)) (= 1 (demand-last demand))
+                      (guarding-events formula))))
+    (cond (guards
+           (dolist (event guards)
+             (push demand (svref (outline-event-demands-of outline) event))))
+          ((not once) (push demand (outline-other-demands outline)))
+          ((or (mentions-kind-p formula '(:predicate :released)) (null (demand-fluents demand)))
+           (push demand (outline-state-demands outline)))
+          (t (dolist (fluent (demand-fluents demand))
+               (push demand (svref (outline-state-demands-of outline) fluent)))))))
+
+;;; What need not be checked
+
+(defun disjuncts (formula)
+  (if (and (consp formula) (eq (first formula) :or)) (rest formula) (list formula)))
+
+(defun provided-p (outline sentence)
+  "Return true if SENTENCE is true by the definition of one of its events or predicates."
+  (and (not (sentence-absolute sentence))
+       (let* ((theory (ground-theory-theory (outline-ground outline)))
+              (axiom (sentence-axiom sentence))
+              (own (and (axiom-p axiom) (axiom-label axiom))))
+         (loop for atom in (disjuncts (sentence-formula sentence))
+                 thereis (and (consp atom) (member (first atom) '(:event :predicate))
+                              (let* ((event (eq (first atom) :event))
+                                     (labels (if event
+                                                 (event-labels theory)
+                                                 (predicate-labels (outline-ground outline)
+                                                                   (second atom))))
+                                     (definition (gethash (second atom)
+                                                          (if event
+                                                              (outline-events outline)
+                                                              (outline-predicates outline)))))
+                                (and definition
+                                     (null (rest labels)) labels
+                                     (not (definition-ahead-p definition))
+                                     (if (first labels)
+                                         (eq own (first labels))
+                                         (not (eq own :facts))))))))))
+
+;;; Exclusions
+
+(defun fluent-exclusion-demands (ground kind names)
+  "Return the demands that say that at most one (:mutex) or just one (:xor) instance of the fluents
+NAMES holds."
+  (let* ((literals (loop for number in (rest (excluded-atoms ground names))
+                         collect (list :fluent number 0)))
+         (formulas (append (and (eq kind :xor) (list (fold :or literals)))
+                           (loop for (literal . others) on literals
+                                 append (loop for other in others
+                                              collect (fold :or (list (fold-not literal)
+                                                                      (fold-not other))))))))
+    (loop for formula in formulas
+          collect (make-demand :axiom (cons kind names) :formula formula
+                               :fluents (formula-fluents formula)))))
+
+(defun add-exclusions (outline)
+  (let ((ground (outline-ground outline)))
+    (when (ground-theory-one-event-at-a-time ground)
+      (push (cons :mutex t) (outline-exclusions outline)))
+    (loop for (kind . names) in (theory-exclusions (ground-theory-theory ground))
+          for (atom-kind . numbers) = (excluded-atoms ground names)
+          do (if (eq atom-kind :event)
+                 (push (cons kind numbers) (outline-exclusions outline))
+                 (dolist (demand (fluent-exclusion-demands ground kind names))
+                   (file-demand outline demand))))))
+
+;;; Timeless atoms
+
+(defun static-supports (ground label index)
+  "Return the formula that some sentence supports the timeless atom INDEX, and true if that is
+known: if no such sentence speaks of a timepoint."
+  (let ((pairs (gethash index (supports ground :static label))))
+    (values (fold :or (mapcar #'support-formula (atom-supports :static index pairs)))
+            (loop for (sentence) in pairs
+                  never (formula-reach (sentence-formula sentence))))))
+
+(defun add-static-demands (outline)
+  "Add to OUTLINE what must be true of the timeless atoms; find out what follows of them at once."
+  (let* ((ground (outline-ground outline))
+         (theory (ground-theory-theory ground))
+         (atoms (atom-table-atoms (ground-theory-statics ground)))
+         (statics (make-array (length atoms) :initial-element :open)))
+    (loop for sentence in (ground-theory-sentences ground)
+          when (and (sentence-absolute sentence) (null (formula-reach (sentence-formula sentence))))
+            do (push (sentence-demand sentence (outline-predicates outline))
+                     (outline-static-demands outline)))
+    (loop for atom across atoms
+          for index from 0
+          do (dolist (label (completion-labels theory (first atom)))
+               (multiple-value-bind (formula known) (static-supports ground label index)
+                 (if known
+                     (push (make-demand :axiom (list :completion (first atom))
+                                        :formula (fold :or (list (list :not (list :static index))
+                                                                 formula)))
+                           (outline-static-demands outline))
+                     (pushnew (cons (list :completion (first atom))
+                                    "the completion of a timeless predicate depends on all timepoints")
+                              (outline-limits outline) :test #'equal)))))
+    (setf (outline-statics outline) statics)
+    (settle statics (loop for index below (length statics) collect index)
+            (let ((formulas (mapcar #'demand-formula (outline-static-demands outline))))
+              (constantly formulas))
+            :static)
+    outline))
+
+;;; The whole
+
+(defun find-loose-fluents (ground)
+  (loop for release across (ground-theory-release ground)
+        for fluent from 0
+        when release collect fluent))
+
+(defun make-empty-outline (ground)
+  (let ((range (theory-time-range (ground-theory-theory ground))))
+    (make-outline :ground ground :first-time (if range (car range) 0)
+                  :influences (all-influences ground)
+                  :loose-fluents (find-loose-fluents ground)
+                  :state-demands-of (make-array (length (ground-theory-fluents ground))
+                                               :initial-element '())
+                  :event-demands-of (make-array (length (ground-theory-events ground))
+                                               :initial-element '()))))
+
+(defun note-late-demands (outline demand sentence)
+  (when (> (demand-last demand) (sentence-last sentence))
+    (push (cons (demand-axiom demand)
+                "it is judged when the events of its last timepoint are known")
+          (outline-limits outline))))
+
+(defun compute-outline (ground)
+  (let ((outline (make-empty-outline ground)))
+    (multiple-value-bind (equated used)
+        (equated-predicates ground (lambda (index) (predicate-labels ground index)))
+      (setf (outline-events outline) (event-definitions ground)
+            (outline-predicates outline) (set-extents (completed-predicates ground equated)))
+      (dolist (sentence (ground-theory-sentences ground))
+        (unless (or (sentence-absolute sentence) (member sentence used)
+                    (provided-p outline sentence))
+          (let ((demand (sentence-demand sentence (outline-predicates outline))))
+            (note-late-demands outline demand sentence)
+            (file-demand outline demand))))
+      (add-exclusions outline)
+      (add-static-demands outline)
+      outline)))
+
+(defvar *outlines* (make-hash-table :test 'eq :weakness :key :synchronized t)
+  "The outline of each ground theory that was progressed.")
+
+(defun ground-outline (ground)
+  "Return the OUTLINE of GROUND, which is computed once."
+  (or (gethash ground *outlines*)
+      (setf (gethash ground *outlines*) (compute-outline ground))))

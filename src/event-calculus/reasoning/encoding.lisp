@@ -1,0 +1,232 @@
+;;;; The Discrete Event Calculus in clauses.
+;;;;
+;;;; DEC5 to DEC12 for each ground fluent, with the completed definitions of initiates, terminates
+;;;; and releases in place (explanation closure); DEC3 and DEC4 for each trajectory; the sentences;
+;;;; the completion of happens and of other predicates where the theory asks for it.  The released-at
+;;;; atoms of fluents that nothing can release are left out.  Entry point: ENCODE.
+
+(in-package #:discrepancy-finder.event-calculus)
+
+;;; DEC5 to DEC12
+
+(defun effect-literal (encoder effect shift)
+  "Return a literal that implies that the event of EFFECT happens and the guard holds."
+  (formula-literal encoder (effect-formula effect) shift))
+
+(defun effect-formula (effect)
+  (fold :and (list (list :event (effect-event effect) 0) (effect-guard effect))))
+
+(defun fluent-effects (ground fluent kind time)
+  "Return the effects of KIND on FLUENT at any timepoint, with TIME also those at TIME only."
+  (remove-if-not (lambda (effect)
+                   (and (eq (effect-kind effect) kind)
+                        (or (null (effect-time effect)) (eql (effect-time effect) time))))
+                 (svref (ground-theory-effects-on ground) fluent)))
+
+(defun effect-shift (effect time)
+  "Return by how much the guard of EFFECT is to be moved to be about TIME, 0 in a template."
+  (if (effect-time effect) 0 time))
+
+(defun assert-effect (encoder effect time)
+  "DEC9, DEC10, DEC11 and DEC12 for EFFECT at TIME."
+  (let* ((event (negate (atom-literal encoder :event (effect-event effect) time)))
+         (fluent (atom-literal encoder :fluent (effect-fluent effect) (1+ time)))
+         (released (atom-literal encoder :released (effect-fluent effect) (1+ time)))
+         (guard (negated (effect-guard effect)))
+         (shift (effect-shift effect time)))
+    (flet ((assert-head (literal)
+             (assert-formula encoder guard shift (list event literal))))
+      (ecase (effect-kind effect)
+        (:initiates (assert-head fluent) (assert-head (negate released)))
+        (:terminates (assert-head (negate fluent)) (assert-head (negate released)))
+        (:releases (assert-head released))))))
+
+(defun effect-literals (encoder fluent kind time absolute)
+  (let ((ground (encoder-ground encoder)))
+    (loop for effect in (fluent-effects ground fluent kind (and absolute time))
+          collect (formula-literal
+                   encoder
+                   (fold :and (list (list :event (effect-event effect)
+                                          (if (effect-time effect) time 0))
+                                    (effect-guard effect)))
+                   (effect-shift effect time)))))
+
+(defun encode-fluent (encoder fluent template time absolute)
+  "Add DEC5 to DEC12 for FLUENT between TIME and the next timepoint.  ABSOLUTE is true if TIME is a
+timepoint, and no distance."
+  (let* ((ground (encoder-ground encoder))
+         (release (svref (ground-theory-release ground) fluent))
+         (now (atom-literal encoder :fluent fluent time))
+         (next (atom-literal encoder :fluent fluent (1+ time)))
+         (released (atom-literal encoder :released fluent time))
+         (released-next (atom-literal encoder :released fluent (1+ time))))
+    (dolist (kind '(:initiates :terminates :releases))
+      (dolist (effect (fluent-effects ground fluent kind (and absolute time)))
+        (with-source (encoder template absolute :effect effect)
+          (assert-effect encoder effect time))))
+    (flet ((literals (kind) (effect-literals encoder fluent kind time absolute)))
+      (unless (eq release :always)
+        (with-source (encoder template absolute :inertia fluent)
+          (let ((initiated (literals :initiates)) (terminated (literals :terminates)))
+            (add-clause encoder (list* (negate now) released-next next terminated))
+            (add-clause encoder (list* now released-next (negate next) initiated)))))
+      (when (eq release :possibly)
+        (with-source (encoder template absolute :release fluent)
+          (add-clause encoder (list* (negate released) released-next
+                                     (append (literals :initiates) (literals :terminates))))
+          (add-clause encoder (list* released (negate released-next) (literals :releases))))))))
+
+(defun encode-fluents (encoder)
+  (let* ((ground (encoder-ground encoder))
+         (step (find-template encoder 0 1))
+         (horizon (encoder-horizon encoder)))
+    (dotimes (fluent (encoder-fluent-count encoder))
+      (if (some #'effect-time (svref (ground-theory-effects-on ground) fluent))
+          (loop for time from (car horizon) below (cdr horizon)
+                do (encode-fluent encoder fluent (encoder-absolute encoder) time t))
+          (encode-fluent encoder fluent step 0 nil))
+      (unless (manual-release-p ground fluent)
+        (with-source (encoder (encoder-initial encoder) t :not-released fluent)
+          (let ((released (atom-literal encoder :released fluent 0)))
+            (when (integerp released)
+              (add-clause encoder (list (- released))))))))))
+
+(defun manual-release-p (ground fluent)
+  (let ((manual (theory-manual-release (ground-theory-theory ground))))
+    (or (eq manual t)
+        (member (first (svref (ground-theory-fluents ground) fluent)) manual))))
+
+;;; DEC3 and DEC4
+
+(defun encode-trajectories (encoder cause kind start stop)
+  "Add the axioms of the trajectories of KIND of the fluent CAUSE.  Effects of the kind START begin
+them, those of the kind STOP end them."
+  (let* ((ground (encoder-ground encoder))
+         (changes (remove kind (svref (ground-theory-changes ground) cause)
+                          :key #'gradual-change-kind :test-not #'eq))
+         (relative (remove-if #'gradual-change-time changes))
+         (longest (reduce #'max relative :key #'gradual-change-offset :initial-value 0))
+         (begun nil)
+         (stopped (make-array (+ 1 longest) :initial-element nil)))
+    (when relative
+      (with-source (encoder (find-template encoder 0 1) nil :begin cause)
+        (setf begun (new-code encoder))
+        (dolist (effect (fluent-effects ground cause start nil))
+          (assert-formula encoder (negated (effect-formula effect)) 0 (list begun))))
+      (loop for offset from 2 to longest
+            do (with-source (encoder (find-template encoder 0 offset) nil :stop cause)
+                 (setf (svref stopped offset)
+                       (disjunction-literal
+                        encoder
+                        (remove nil (cons (svref stopped (1- offset))
+                                          (loop for effect in (fluent-effects ground cause stop nil)
+                                                collect (effect-literal encoder effect
+                                                                        (1- offset)))))))))
+      (dolist (change relative)
+        (let ((offset (gradual-change-offset change)))
+          (with-source (encoder (find-template encoder 0 offset) nil :trajectory change)
+            (assert-formula encoder (negated (gradual-change-guard change)) 0
+                            (list (- begun) (svref stopped offset)
+                                  (formula-literal encoder (changed-formula change offset) 0)))))))
+    (dolist (change changes)
+      (when (gradual-change-time change)
+        (encode-dated-trajectory encoder change start stop)))))
+
+(defun changed-formula (change end)
+  "Return the ground formula that what CHANGE leads to is so at END."
+  (if (gradual-change-term change)
+      (list :compare := (list :value (gradual-change-fluent change) end)
+            (gradual-change-term change))
+      (list :fluent (gradual-change-fluent change) end)))
+
+(defun encode-dated-trajectory (encoder change start stop)
+  "Add the axiom of a trajectory that begins at a given timepoint."
+  (let* ((ground (encoder-ground encoder))
+         (cause (gradual-change-cause change))
+         (time (gradual-change-time change))
+         (end (+ time (gradual-change-offset change))))
+    (flet ((happening (kind time)
+             (fold :or (loop for effect in (fluent-effects ground cause kind time)
+                             collect (fold :and (list (list :event (effect-event effect) time)
+                                                      (shift-formula (effect-guard effect)
+                                                                     (effect-shift effect
+                                                                                   time))))))))
+      (when (<= end (cdr (encoder-horizon encoder)))
+        (with-source (encoder (encoder-absolute encoder) t :trajectory change)
+          (assert-formula encoder
+                          (fold :or (list* (negated (happening start time))
+                                           (negated (gradual-change-guard change))
+                                           (changed-formula change end)
+                                           (loop for between from (1+ time) below end
+                                                 collect (happening stop between))))
+                          0))))))
+
+;;; Sentences, completion, exclusion
+
+(defun encode-sentence (encoder sentence)
+  (if (sentence-absolute sentence)
+      (with-source (encoder (encoder-absolute encoder) t :sentence sentence)
+        (assert-formula encoder (sentence-formula sentence) 0))
+      (with-source (encoder (find-template encoder (sentence-first sentence)
+                                           (sentence-last sentence))
+                            nil :sentence sentence)
+        (assert-formula encoder (sentence-formula sentence) 0))))
+
+(defun excluded-atoms (ground names)
+  "Return (kind index*) of the instances of the events or fluents NAMES; T means all events."
+  (flet ((numbers (atoms)
+           (loop for atom across atoms
+                 for index from 0
+                 when (or (eq names t) (member (first atom) names)) collect index)))
+    (let ((events (numbers (ground-theory-events ground))))
+      (if (or (eq names t) events)
+          (cons :event events)
+          (cons :fluent (numbers (ground-theory-fluents ground)))))))
+
+(defun encode-exclusion (encoder kind names)
+  (destructuring-bind (atom-kind . numbers) (excluded-atoms (encoder-ground encoder) names)
+    (let* ((template (find-template encoder 0 (if (eq atom-kind :event) 1 0)))
+           (literals (loop for number in numbers
+                           collect (atom-literal encoder atom-kind number 0))))
+      (with-source (encoder template nil :exclusion names)
+        (when (eq kind :xor)
+          (add-clause encoder literals))
+        (if (or (encoder-tracked encoder) (null (nthcdr 6 literals)))
+            (loop for (first . others) on literals
+                  do (dolist (other others)
+                       (add-clause encoder (list (- first) (- other)))))
+            (push literals (template-exclusions template)))))))
+
+(defun make-empty-encoder (ground horizon tracked)
+  (let ((fluents (length (ground-theory-fluents ground)))
+        (events (length (ground-theory-events ground)))
+        (predicates (length (atom-table-atoms (ground-theory-predicates ground))))
+        (numerics (length (ground-theory-numerics ground)))
+        (statics (length (atom-table-atoms (ground-theory-statics ground)))))
+    (make-encoder :ground ground :horizon horizon :tracked tracked
+                  :fluent-count fluents :event-count events :predicate-count predicates
+                  :static-count statics :numeric-count numerics
+                  :step-size (+ fluents fluents events predicates numerics)
+                  :global-size (1+ statics))))
+
+(defun encode (ground horizon &key tracked open-events assumptions)
+  "Return an ENCODER with the clauses of GROUND, a ground theory for HORIZON.  With TRACKED each
+source of clauses has a selector, a literal under which they hold.  OPEN-EVENTS names events whose
+completion is left out, ASSUMPTIONS are sentences that are added."
+  (let ((encoder (make-empty-encoder ground horizon tracked)))
+    (encode-fluents encoder)
+    (encode-numeric-fluents encoder)
+    (dotimes (cause (encoder-fluent-count encoder))
+      (encode-trajectories encoder cause :trajectory :initiates :terminates)
+      (encode-trajectories encoder cause :anti-trajectory :terminates :initiates))
+    (dolist (sentence (ground-theory-initial-conditions ground))
+      (with-source (encoder (encoder-initial encoder) t :initially sentence)
+        (assert-formula encoder (sentence-formula sentence) 0)))
+    (dolist (sentence (append (ground-theory-sentences ground) assumptions))
+      (encode-sentence encoder sentence))
+    (when (ground-theory-one-event-at-a-time ground)
+      (encode-exclusion encoder :mutex t))
+    (loop for (kind . names) in (theory-exclusions (ground-theory-theory ground))
+          do (encode-exclusion encoder kind names))
+    (encode-completions encoder open-events)
+    encoder))

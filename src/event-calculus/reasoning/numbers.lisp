@@ -1,0 +1,57 @@
+;;;; Numbers in Z3: one real a numeric fluent and timepoint.
+
+(in-package #:discrepancy-finder.event-calculus)
+
+(defun number-term (reasoner term time)
+  "Return the Z3 term of the ground TERM, whose times are relative to TIME."
+  (labels ((convert (term)
+             (if (rationalp term)
+                 term
+                 (case (first term)
+                   (:value (value-term reasoner (second term) (+ time (third term))))
+                   (:+ (z3:sum (mapcar #'convert (rest term))))
+                   (:* (z3:product (mapcar #'convert (rest term))))
+                   (:- (if (cddr term)
+                           (z3:difference (convert (second term)) (convert (third term)))
+                           (z3:difference 0 (convert (second term)))))
+                   (:/ (z3:quotient (convert (second term)) (convert (third term))))))))
+    (convert term)))
+
+(defun value-term (reasoner numeric time)
+  "Return the Z3 variable for the value of NUMERIC at TIME."
+  (let ((key (cons numeric time)) (table (reasoner-numbers reasoner)))
+    (or (gethash key table)
+        (setf (gethash key table)
+              (let ((ground (encoder-ground (reasoner-encoder reasoner))))
+                (z3:variable (reasoner-context reasoner)
+                             (atom-text (list :value-at
+                                              (svref (ground-theory-numerics ground) numeric)
+                                              time))
+                             (z3:real-sort (reasoner-context reasoner))))))))
+
+(defun comparison-proposition (reasoner comparison time)
+  "Return the proposition of COMPARISON, (operator term term), relative to TIME."
+  (destructuring-bind (operator left right) comparison
+    (let ((left (number-term reasoner left time)) (right (number-term reasoner right time)))
+      (ecase operator
+        (:= (z3:equals left right))
+        (:< (z3:less left right))
+        (:<= (z3:less-or-equal left right))))))
+
+(defun assert-comparisons (reasoner template time)
+  "Tie the comparisons of TEMPLATE at TIME to their atoms."
+  (loop for (code . comparison) in (template-comparisons template)
+        do (z3:solver-assert
+            (reasoner-solver reasoner)
+            (z3:equivalence (z3:clause-set-term
+                             (reasoner-clause-set reasoner)
+                             (encoder-variable (reasoner-encoder reasoner) code time))
+                            (comparison-proposition reasoner comparison time)))))
+
+(defun current-numbers (reasoner)
+  "Return a table from (numeric . time) to the numbers of the model that the last check found."
+  (let ((table (make-hash-table :test 'equal)))
+    (maphash (lambda (key term)
+               (setf (gethash key table) (z3:model-value (reasoner-solver reasoner) term)))
+             (reasoner-numbers reasoner))
+    table))

@@ -1,0 +1,42 @@
+;;;; The subcommands about theories: their models, and what is to be said of them.
+
+(in-package #:discrepancy-finder)
+
+(defun theory-file-argument (arguments command)
+  "Return the theory in the file that ARGUMENTS name: `.e' files are in the language of the Discrete
+Event Calculus Reasoner, others hold define-theory."
+  (unless (= (length arguments) 1)
+    (usage-problem "~a takes one file." command))
+  (let ((file (first arguments)))
+    (if (string-equal (pathname-type (source:native-path file)) "e")
+        (ec:load-e-theory file)
+        (ec:load-theory file))))
+
+(defun horizon-option (options)
+  (let ((last (getf options :horizon)))
+    (when (and last (minusp last))
+      (usage-problem "--horizon takes a timepoint, not ~d." last))
+    last))
+
+(define-subcommand "reason" (arguments options)
+    ("FILE [--all] [--horizon N]"
+     "Print the models of a theory, at most 10: a .e file, or a .lisp file with define-theory."
+     (("all") :type boolean :optional t :documentation "print all models")
+     (("horizon") :type integer :documentation "last timepoint (the theory's own)"))
+  (let* ((theory (theory-file-argument arguments "reason"))
+         (limit (if (getf options :all) nil 10)))
+    (multiple-value-bind (models complete)
+        (ec:models theory :limit limit :horizon (horizon-option options))
+      (ec:print-e-models models *standard-output*)
+      (unless complete
+        (format *error-output* "There are more models; --all prints them.~%"))))
+  0)
+
+(define-subcommand "check-theory" (arguments options)
+    ("FILE [--horizon N]"
+     "Say what looks wrong in a theory: contradictions, axioms and events that do nothing."
+     (("horizon") :type integer :documentation "last timepoint (the theory's own, or 3)"))
+  (let* ((theory (theory-file-argument arguments "check-theory"))
+         (findings (ec:check-theory theory :horizon (horizon-option options))))
+    (format t "~{~a~%~}~d finding~:p~%" findings (length findings))
+    (if (find :note findings :key #'ec:finding-severity :test-not #'eq) 1 0)))
