@@ -134,7 +134,7 @@ The environment variable CXX names another compiler than g++."))
                (:module "reasoning"
                 :serial t
                 :components ((:file "clauses") (:file "encoding") (:file "numeric-fluents")
-                             (:file "completion") (:file "reasoner") (:file "numbers")
+                             (:file "completion") (:file "propagation") (:file "reasoner") (:file "numbers")
                              (:file "models") (:file "queries") (:file "core") (:file "why")
                              (:file "findings")))
                (:file "progression")

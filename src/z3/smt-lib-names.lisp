@@ -20,41 +20,60 @@
     "arcsin" "arccos" "arctan" "arccsc" "arcsec" "arccot" "int2bv" "bv2nat" "nat2bv"
     "/_total" "div_total" "mod_total" "log" "root-obj"
     ;; arrays, sets, sequences, data types, functions, bit-vectors
-    "Array" "select" "store" "const" "Set" "Bag" "Seq" "Tuple" "Relation" "tuple" "is" "update"
+    "Array" "select" "store" "const" "Set" "Bag" "bag" "Seq" "Tuple" "Relation" "tuple" "is" "update"
     "union" "intersection" "setminus" "member" "subset" "singleton" "insert" "card" "complement"
     "emptyset" "univset" "transpose" "tclosure" "join" "product" "iden" "map" "rel" "eqrange"
     "BitVec" "String" "RegLan" "concat" "extract" "repeat" "zero_extend" "sign_extend"
     "rotate_left" "rotate_right" "ext_rotate_left" "ext_rotate_right" "bit2bool" "bvredand"
-    "RoundingMode" "FloatingPoint" "Float16" "Float32" "Float64" "Float128" "to_fp"
+    "RoundingMode" "fp" "FloatingPoint" "Float16" "Float32" "Float64" "Float128" "to_fp"
     "to_fp_unsigned" "RNE" "RNA" "RTP" "RTN" "RTZ" "@" "->" "wand" "pto" "sep" "pbeq" "pbge"
     "pble" "at-most" "at-least" "implies" "iff" "if" "nil" "witness" "UnitTuple" "emp")
   "Symbols that cannot be declared, in SMT-LIB or in some solver.")
 
 (defparameter *theory-prefixes*
   '("bv" "fp." "str." "re." "seq." "set." "bag." "rel." "table." "tuple." "int." "real." "sep."
-    "ff." "array." "roundNearest" "roundToward" "@" ".")
+    "ff." "array." "roundNearest" "roundToward")
   "Beginnings of further symbols that cannot be declared.")
+
+(defparameter *command-words*
+  '("apply" "assert" "assert-not" "assert-soft" "block-model" "block-model-values" "check-sat"
+    "check-sat-assuming" "check-synth" "constraint" "declare-codatatype" "declare-codatatypes"
+    "declare-const" "declare-datatype" "declare-datatypes" "declare-fun" "declare-heap"
+    "declare-map" "declare-pool" "declare-rel" "declare-sort" "declare-tactic" "declare-var"
+    "define" "define-const" "define-fun" "define-fun-rec" "define-funs-rec" "define-sort" "display"
+    "echo" "eval" "exit" "get-abduct" "get-abduct-next" "get-assertions" "get-assignment"
+    "get-difficulty" "get-info" "get-interpolant" "get-interpolant-next" "get-learned-literals"
+    "get-model" "get-option" "get-proof" "get-qe" "get-qe-disjunct" "get-unsat-assumptions"
+    "get-unsat-core" "get-value" "help" "include" "inv-constraint" "labels" "maximize" "minimize"
+    "pop" "push" "query" "reset" "reset-assertions" "rule" "set-feature" "set-info" "set-logic"
+    "set-option" "simplify" "synth-fun" "synth-inv")
+  "Words that are read as commands where they stand without bars.")
 
 (defun theory-symbol-p (name)
   (or (member name *theory-symbols* :test #'string=)
       (some (lambda (prefix) (uiop:string-prefix-p prefix name)) *theory-prefixes*)))
 
 (defun simple-symbol-p (name)
-  "Return true if NAME needs no bars."
-  (flet ((simple-p (character)
-           (and (< (char-code character) 128)
-                (or (alphanumericp character) (find character "~!@$%^&*_-+=<>.?/")))))
+  "Return true if NAME needs no bars in any solver."
+  (flet ((letter-p (character)
+           (and (alpha-char-p character) (< (char-code character) 128)))
+         (other-p (character)
+           (find character "0123456789~!@$%^&*_-+=<>.?/")))
     (and (plusp (length name))
-         (not (digit-char-p (char name 0)))
-         (every #'simple-p name))))
+         (letter-p (char name 0))
+         (every (lambda (character) (or (letter-p character) (other-p character))) name)
+         (not (member name *command-words* :test #'string=)))))
 
 (defun permitted-characters (name)
-  "Return NAME with the characters that may not stand between bars written by their codes."
+  "Return NAME with the characters that may not stand between bars, or not first, written by their
+codes."
   (with-output-to-string (text)
     (loop for character across name
+          for position from 0
           for code = (char-code character)
           do (if (or (< code 32) (<= 127 code 159) (<= #xD800 code #xDFFF)
-                     (find character "|\\"))
+                     (find character "|\\")
+                     (and (zerop position) (find character "@.")))
                  (format text "{~(~x~)}" code)
                  (write-char character text)))))
 
@@ -66,6 +85,7 @@
   (let ((name (permitted-characters name)))
     (loop for count from 1
           for candidate = (if (= count 1) name (format nil "~a!~d" name count))
-          unless (or (gethash candidate taken) (theory-symbol-p candidate))
+          unless (or (gethash candidate taken)
+                     (and (= count 1) (theory-symbol-p candidate)))
             do (setf (gethash candidate taken) t)
                (return (quoted-symbol candidate)))))

@@ -35,36 +35,48 @@
             (nth-value 1 (reified-symbol theory (first form)))
             (first (find-function theory (first form))))))
 
-(defun time-of-term (theory term bound)
-  "Return the time variable of TERM if it is that, or that plus or minus something without time
-variables and variables of BOUND; else NIL."
+(defun time-of-term (theory term)
+  "Return the time variable of TERM, a time, if it is that, or that plus or minus something without
+time variables, and what is added: an integer, or NIL if that depends on other variables."
   (flet ((time-p (term) (and (variable-p term) (eq (variable-sort theory term) :time)))
          (distance-p (term)
-           (notany (lambda (variable)
-                     (or (eq (variable-sort theory variable) :time) (member variable bound)))
+           (notany (lambda (variable) (eq (variable-sort theory variable) :time))
                    (term-variables term))))
-    (cond ((time-p term) (and (not (member term bound)) term))
+    (cond ((time-p term) (values term 0))
           ((and (consp term) (member (first term) '(:+ :-)) (= (length term) 3))
            (destructuring-bind (operator left right) term
-             (cond ((and (time-p left) (distance-p right)) (time-of-term theory left bound))
+             (cond ((and (time-p left) (distance-p right))
+                    (values left (and (integerp right)
+                                      (if (eq operator :+) right (- right)))))
                    ((and (eq operator :+) (time-p right) (distance-p left))
-                    (time-of-term theory right bound))))))))
+                    (values right (and (integerp left) left)))))))))
 
 (defun relative-form-p (theory form)
   "Return true, and the time variable if there is one, if FORM is about one arbitrary timepoint: it
-has one free time variable, which only stands in times of atoms."
-  (let ((variable nil))
+has one free time variable, which only stands in times of atoms.  The times inside of quantifiers
+must be among those outside, for there only the quantifier's instance is dropped, and not FORM's,
+where they are beyond the horizon."
+  (let ((variable nil) (outer (list 0 0)) (inner (list 0 0)))
     (labels ((fail () (return-from relative-form-p nil))
-             (check-time-term (term bound)
-               (let ((found (or (time-of-term theory term bound) (fail))))
-                 (if (and variable (not (eq variable found)))
-                     (fail)
-                     (setf variable found))))
+             (check-time-term (term bound duration)
+               (multiple-value-bind (found distance) (time-of-term theory term)
+                 (when (or (null found) (member found bound)
+                           (and variable (not (eq variable found)))
+                           (and bound (null distance)))
+                   (fail))
+                 (setf variable found)
+                 (when distance
+                   (let ((span (if bound inner outer)))
+                     (setf (first span) (min (first span) distance)
+                           (second span) (max (second span) (+ distance duration)))))))
              (check-arguments (form bound)
-               (loop for term in (rest form)
+               (loop with duration = (if (member (first form) '(:happens :initiates :terminates
+                                                                :releases :assigns))
+                                         1 0)
+                     for term in (rest form)
                      for sort in (argument-sorts theory form)
                      do (if (eq sort :time)
-                            (check-time-term term bound)
+                            (check-time-term term bound duration)
                             (check-term term bound))))
              (check-term (term bound)
                (cond ((and (variable-p term) (eq (variable-sort theory term) :time)) (fail))
@@ -76,21 +88,23 @@ has one free time variable, which only stands in times of atoms."
                           (when (eq sort :time) (fail)))
                         (dolist (part (rest term)) (check-term part bound)))))
              (check (form bound)
-               (case (if (consp form) (first form) :and)
-                 ((:and :or :not :implies :iff)
-                  (when (consp form)
-                    (dolist (part (rest form)) (check part bound))))
-                 ((:forall :exists)
-                  (check (third form) (append (second form) bound)))
-                 (:initially (fail))
-                 (t (if (member (first form) *comparisons*)
-                        (dolist (part (rest form)) (check-term part bound))
-                        (progn
-                          (when (< 1 (count :time (rest (assoc (first form)
-                                                               (theory-predicates theory)))))
-                            (fail))
-                          (check-arguments form bound)))))))
+               (cond ((atom form))
+                     ((member (first form) '(:and :or :not :implies :iff))
+                      (dolist (part (rest form)) (check part bound)))
+                     ((member (first form) '(:forall :exists))
+                      (check (third form) (append (second form) bound)))
+                     ((eq (first form) :initially) (fail))
+                     ((member (first form) *comparisons*)
+                      (dolist (part (rest form)) (check-term part bound)))
+                     ((or (< 1 (count :time (rest (assoc (first form)
+                                                         (theory-predicates theory)))))
+                          (and bound (member (first form) '(:stopped-in :started-in :clipped
+                                                            :declipped))))
+                      (fail))
+                     (t (check-arguments form bound)))))
       (check (strip-quantifiers form) '())
+      (when (or (< (first inner) (first outer)) (> (second inner) (second outer)))
+        (fail))
       (values (and variable t) variable))))
 
 ;;; Instances
@@ -108,7 +122,10 @@ called with each environment.  TIME-VARIABLE, if any, is bound to 0."
         (setf (svref environment (cdr (assoc time-variable (compilation-slots compilation)))) 0))
       (funcall (the function (compile-instances compilation variables filters level))
                (lambda (environment)
-                 (setf *span* (cons most-positive-fixnum most-negative-fixnum))
+                 ;; The timepoint in question is one of the horizon, whatever is said of it.
+                 (setf *span* (if time-variable
+                                  (cons 0 0)
+                                  (cons most-positive-fixnum most-negative-fixnum)))
                  (funcall (the function instance) environment))
                environment))))
 

@@ -6,8 +6,8 @@
 ;;;;
 ;;;; As in the Discrete Event Calculus Reasoner, an instance of a quantifier is dropped, be it
 ;;;; universal or existential, if an argument lies outside of its sort, an event would happen at the
-;;;; last timepoint or before the first, or a function has no value: the innermost quantifier that
-;;;; binds a variable of that argument drops its instance, by a THROW to its level.
+;;;; last timepoint or before the first, or a function has no value: the innermost quantifier around
+;;;; drops its instance, by a THROW to its level.
 
 (in-package #:discrepancy-finder.event-calculus)
 
@@ -61,13 +61,9 @@ places in the environment."
   (cond ((variable-p term) (list term))
         ((consp term) (remove-duplicates (mapcan #'term-variables (copy-list (rest term)))))))
 
-(defun dropper (compilation terms)
-  "Return a function that drops the instance because of the value of one of TERMS."
-  (let* ((variables (mapcan #'term-variables (copy-list terms)))
-         (level (or (find-if (lambda (level) (intersection variables (level-variables level)))
-                             (compilation-levels compilation))
-                    (first (last (compilation-levels compilation)))))
-         (tag (and level (level-tag level))))
+(defun dropper (compilation)
+  "Return a function that drops the instance of the innermost quantifier."
+  (let ((tag (level-tag (first (compilation-levels compilation)))))
     (lambda () (throw tag nil))))
 
 ;;; Terms
@@ -85,7 +81,7 @@ places in the environment."
 (defun compile-arithmetic (compilation term)
   (let ((operator (first term))
         (parts (mapcar (lambda (part) (compile-term compilation part)) (rest term)))
-        (drop (dropper compilation (rest term))))
+        (drop (dropper compilation)))
     (environment-lambda (environment)
       (let ((values (loop for part of-type function in parts
                           collect (funcall part environment))))
@@ -111,7 +107,7 @@ places in the environment."
                  for sort in sorts
                  collect
                  (let ((value (compile-term compilation term))
-                       (drop (dropper compilation (list term)))
+                       (drop (dropper compilation))
                        (sort sort))
                    (declare (type function value drop))
                    (if (and (variable-p term) (eq (variable-sort theory term) sort))
@@ -140,7 +136,7 @@ places in the environment."
           (function
            (let ((key (compile-symbol-term compilation term (first function)))
                  (table (ground-theory-function-values (compilation-ground compilation)))
-                 (drop (dropper compilation (rest term))))
+                 (drop (dropper compilation)))
              (declare (type function key drop))
              (environment-lambda (environment)
                (multiple-value-bind (value known) (gethash (funcall key environment) table)
@@ -167,7 +163,7 @@ places in the environment."
 (defun compile-time (compilation term &key event)
   "Return a function that returns the time TERM, of an event if EVENT is true."
   (let ((value (compile-term compilation term))
-        (drop (dropper compilation (list term)))
+        (drop (dropper compilation))
         (duration (if event 1 0)))
     (declare (type function value drop))
     (environment-lambda (environment)
@@ -188,7 +184,7 @@ places in the environment."
   (let ((value (if (variable-p term)
                    (compile-term compilation term)
                    (compile-symbol-term compilation term (assoc (first term) declarations))))
-        (drop (dropper compilation (list term))))
+        (drop (dropper compilation)))
     (declare (type function value drop))
     (environment-lambda (environment)
       (or (gethash (funcall value environment) index)

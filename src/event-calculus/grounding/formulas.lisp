@@ -17,7 +17,7 @@
 (defun compile-constant-comparison (compilation form)
   (let ((left (compile-term compilation (second form)))
         (right (compile-term compilation (third form)))
-        (drop (dropper compilation (rest form)))
+        (drop (dropper compilation))
         (operator (first form)))
     (declare (type function left right drop))
     (environment-lambda (environment)

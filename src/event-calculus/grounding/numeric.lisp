@@ -25,7 +25,7 @@
   "Return a function that returns the ground term of TERM, a number where it is constant."
   (cond ((not (mentions-value-p term))
          (let ((value (compile-term compilation term))
-               (drop (dropper compilation (list term))))
+               (drop (dropper compilation)))
            (declare (type function value drop))
            (environment-lambda (environment)
              (let ((number (funcall value environment)))
@@ -38,7 +38,7 @@
                              "there is no remainder of the value of a numeric fluent"))
          (let ((operator (first term))
                (parts (mapcar (lambda (part) (compile-number compilation part)) (rest term)))
-               (drop (dropper compilation (rest term))))
+               (drop (dropper compilation)))
            (declare (type function drop))
            (environment-lambda (environment)
              (let ((terms (loop for part of-type function in parts

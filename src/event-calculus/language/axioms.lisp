@@ -157,16 +157,11 @@ the completed definition."
     (loop for (key . names) in (theory-exclusions theory)
           do (check (format nil "~(~s~)" key) names
                     (append (theory-fluents theory) (theory-events theory)) "fluent or event"))
-    (loop for (label predicate) in (theory-completions theory)
+    (loop for (nil predicate) in (theory-completions theory)
           do (unless (or (member predicate *effect-predicates*) (eq predicate :happens)
                          (assoc predicate (theory-predicates theory)))
                (theory-problem theory ":completion" nil "there is no predicate ~a to complete"
-                               (name-text predicate)))
-             (when (and label (notany (lambda (axiom) (eq (axiom-label axiom) label))
-                                      (theory-axioms theory))
-                        (eq (theory-syntax theory) :lisp))
-               (theory-problem theory ":completion" nil "no axiom has the label ~a"
-                               (name-text label))))))
+                               (name-text predicate))))))
 
 (defun check-axioms (theory)
   (loop for (axiom . others) on (theory-axioms theory)

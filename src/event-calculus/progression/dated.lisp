@@ -24,7 +24,7 @@
   ;; a table from (axiom . bindings) to formula and last timepoint
   (formulas (make-hash-table :test 'equal) :type hash-table :read-only t)
   ;; a table from timepoints to limits
-  (limits (make-hash-table) :type hash-table :read-only t))
+  (limits-of (make-hash-table) :type hash-table :read-only t))
 
 (defun lift-universals (form)
   "Return FORM with universal quantifiers in the conclusion of an implication moved outside: it has
@@ -79,28 +79,127 @@ sentences."
 (defun instance-key (sentence)
   (cons (axiom-name (sentence-axiom sentence)) (sentence-bindings sentence)))
 
-(defun add-dated-supports (dated theory sentences)
-  "Enter what SENTENCES support, at which timepoint, under each completion of THEORY."
-  (flet ((enter (time kind index position count support)
-           (let* ((entries (gethash time (dated-supports dated)))
-                  (entry (find-if (lambda (entry)
-                                    (and (eq (first entry) kind) (eql (second entry) index)))
-                                  entries)))
-             (unless entry
-               (setf entry (list* kind index (make-list count :initial-element '())))
-               (push entry (gethash time (dated-supports dated))))
-             (push support (nth (+ 2 position) entry)))))
-    (dolist (sentence sentences)
-      (map-positive-atoms
-       (lambda (atom)
-         (when (member (first atom) '(:event :predicate))
-           (destructuring-bind (kind index time) atom
-             (loop with labels = (if (eq kind :event)
-                                     (event-labels theory)
-                                     '())
-                   for label in labels
-                   for position from 0
-                   when (supporting-p sentence label)
-                     do (dolist (support (atom-supports kind index (list (cons sentence time))))
-                          (enter time kind index position (length labels) support))))))
-       (sentence-formula sentence)))))
+;;; What counts when
+
+(defun due-time (outline sentence)
+  "Return the timepoint at which SENTENCE, an instance, can be judged."
+  (let ((theory (ground-theory-theory (outline-ground outline)))
+        (due (if (formula-reach (sentence-formula sentence))
+                 (effective-last outline sentence)
+                 (outline-first-time outline))))
+    (loop for (variable . value) in (sentence-bindings sentence)
+          when (eq (variable-sort theory variable) :time)
+            do (setf due (max due value)))
+    due))
+
+(defun enter-demands (outline dated sentences)
+  (let ((seen (make-hash-table :test 'equal)))
+    (loop for (due . sentence)
+            in (stable-sort (loop for sentence in sentences
+                                  collect (cons (due-time outline sentence) sentence))
+                            #'< :key #'car)
+          for formula = (sentence-formula sentence)
+          do (setf (gethash (instance-key sentence) (dated-formulas dated)) (list formula due (sentence-axiom sentence)))
+             (unless (gethash formula seen)
+               (setf (gethash formula seen) t)
+               (push (sentence-demand outline sentence)
+                     (gethash due (dated-demands dated)))))))
+
+(defun enter-support (dated kind index time position count support)
+  (let ((entry (find-if (lambda (entry)
+                          (and (eq (first entry) kind) (eql (second entry) index)))
+                        (gethash time (dated-supports dated)))))
+    (unless entry
+      (setf entry (list* kind index (make-list count :initial-element '())))
+      (push entry (gethash time (dated-supports dated))))
+    (push support (nth (+ 2 position) entry))))
+
+(defun atom-labels (ground kind index)
+  "Return the labels under which the atom of KIND with the number INDEX is completed."
+  (ecase kind
+    (:event (event-labels (ground-theory-theory ground)))
+    (:predicate (predicate-labels ground index))))
+
+(defun enter-supports (outline dated sentence)
+  "Enter what SENTENCE supports, at which timepoint, under each completion."
+  (map-positive-atoms
+   (lambda (atom)
+     (when (member (first atom) '(:event :predicate))
+       (destructuring-bind (kind index time) atom
+         (loop with labels = (atom-labels (outline-ground outline) kind index)
+               for label in labels
+               for position from 0
+               when (supporting-p (sentence-axiom sentence) label)
+                 do (dolist (support (atom-supports kind index (list (cons sentence time))))
+                      (enter-support dated kind index time position (length labels) support))))))
+   (sentence-formula sentence)))
+
+(defun dated-alternatives (outline kind number time)
+  "Return the supports that the atom of KIND with NUMBER has at TIME only, a list for each of its
+completions."
+  (and (ground-theory-absolute-clauses (outline-ground outline))
+       (loop for (other-kind other-number . alternatives)
+               in (gethash time (dated-supports (outline-dated-until outline time)))
+             when (and (eq kind other-kind) (eql number other-number))
+               return alternatives)))
+
+(defun enter-effects (dated ground)
+  (loop for effects across (ground-theory-effects ground)
+        do (dolist (effect effects)
+             (when (effect-time effect)
+               (push effect (gethash (effect-time effect) (dated-effects dated)))))))
+
+(defun compute-dated (outline horizon)
+  "Return the dated instances of OUTLINE for HORIZON."
+  (let ((ground (outline-ground outline)))
+    (multiple-value-bind (copy sentences) (ground-until ground horizon (dated-clauses ground))
+      (let ((dated (make-dated :horizon horizon :changes (ground-theory-changes copy))))
+        (enter-demands outline dated sentences)
+        (dolist (sentence sentences) (enter-supports outline dated sentence))
+        (enter-effects dated copy)
+        dated))))
+
+(defun outline-dated-until (outline time)
+  "Return the dated instances of OUTLINE for a horizon far beyond TIME."
+  (let* ((first (outline-first-time outline))
+         (dated (outline-dated outline))
+         (last (+ first 16 (* 2 (- time first)))))
+    (if (and dated (>= (cdr (dated-horizon dated)) last))
+        dated
+        (setf (outline-dated outline)
+              (compute-dated outline (cons first (+ last (- last first))))))))
+
+;;; Exactness
+
+(defun differing-axioms (outline dated time)
+  "Return the axioms whose instances for a horizon that ends at TIME are not those of DATED that
+are due by then."
+  (let ((axioms '())
+        (formulas (make-hash-table :test 'equal))
+        (ground (outline-ground outline)))
+    (dolist (sentence (nth-value 1 (ground-until ground (cons (outline-first-time outline) time)
+                                                 (dated-clauses ground))))
+      (setf (gethash (instance-key sentence) formulas) sentence))
+    (loop for key being the hash-keys of formulas using (hash-value sentence)
+          do (destructuring-bind (&optional formula (due time due-p) &rest rest)
+                 (gethash key (dated-formulas dated))
+               (declare (ignore rest))
+               (unless (and due-p (<= due time) (equal formula (sentence-formula sentence)))
+                 (pushnew (sentence-axiom sentence) axioms))))
+    (loop for key being the hash-keys of (dated-formulas dated) using (hash-value value)
+          do (destructuring-bind (formula due axiom) value
+               (declare (ignore formula))
+               (unless (or (> due time) (gethash key formulas))
+                 (pushnew axiom axioms))))
+    axioms))
+
+(defun dated-limits (outline time)
+  "Return the limits, (axiom . reason), of what is known at TIME of the axioms that compare
+timepoints."
+  (let ((dated (outline-dated-until outline time)))
+    (multiple-value-bind (limits known) (gethash time (dated-limits-of dated))
+      (if known
+          limits
+          (setf (gethash time (dated-limits-of dated))
+                (loop for axiom in (differing-axioms outline dated time)
+                      collect (cons axiom "what it says depends on which timepoint is the last")))))))

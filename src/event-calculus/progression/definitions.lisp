@@ -96,6 +96,11 @@ events and predicates first, since they are known before these."
   (loop for (label completed) in (theory-completions theory)
         when (eq completed predicate) collect label))
 
+(defun supporting-p (axiom label)
+  "Return true if a completion with LABEL counts the sentences of AXIOM."
+  (let ((own (and (axiom-p axiom) (axiom-label axiom))))
+    (if label (eq own label) (not (eq own :facts)))))
+
 (defun event-labels (theory)
   "Return the list of the labels under which events are completed in progression."
   (or (completion-labels theory :happens) (list nil)))
@@ -122,7 +127,7 @@ make happen to its definition."
               do (let ((alternatives (loop for table in tables
                                            collect (atom-supports :event index
                                                                   (relative-pairs table index)))))
-                   (when (every #'identity alternatives)
+                   (when (some #'identity alternatives)
                      (setf (gethash index definitions) (new-definition alternatives))))))))
 
 ;;; Predicates

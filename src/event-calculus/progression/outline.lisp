@@ -85,22 +85,28 @@ true if one of them looks ahead."
                formula)
     (sort fluents #'<)))
 
-(defun effective-last (sentence predicates)
-  "Return the last distance that must be known to evaluate SENTENCE: its predicates may depend on
-the events of their timepoint."
-  (let ((last (sentence-last sentence)))
+(defun formula-end (outline formula)
+  "Return the last distance that must be known to evaluate the ground FORMULA; its predicates may
+depend on the events of their timepoint.  Return the least integer if it has no time."
+  (let ((end most-negative-fixnum))
     (map-atoms (lambda (atom)
-                 (when (eq (first atom) :predicate)
-                   (let ((definition (gethash (second atom) predicates)))
-                     (when definition
-                       (setf last (max last (+ (third atom) (definition-extent definition))))))))
-               (sentence-formula sentence))
-    last))
+                 (case (first atom)
+                   (:event (setf end (max end (1+ (third atom)))))
+                   (:predicate
+                    (let ((definition (gethash (second atom) (outline-predicates outline))))
+                      (setf end (max end (+ (third atom)
+                                            (if definition (definition-extent definition) 0))))))
+                   ((:fluent :released) (setf end (max end (third atom))))))
+               formula)
+    end))
 
-(defun sentence-demand (sentence predicates)
+(defun effective-last (outline sentence)
+  (max (sentence-last sentence) (formula-end outline (sentence-formula sentence))))
+
+(defun sentence-demand (outline sentence)
   (make-demand :axiom (sentence-axiom sentence)
               :formula (plain-parts-first (sentence-formula sentence))
-              :first (sentence-first sentence) :last (effective-last sentence predicates)
+              :first (sentence-first sentence) :last (effective-last outline sentence)
               :fluents (formula-fluents (sentence-formula sentence))))
 
 (defun guarding-events (formula)
@@ -139,26 +145,17 @@ one of them happens; or NIL if there are none."
 (defun provided-p (outline sentence)
   "Return true if SENTENCE is true by the definition of one of its events or predicates."
   (and (not (sentence-absolute sentence))
-       (let* ((theory (ground-theory-theory (outline-ground outline)))
-              (axiom (sentence-axiom sentence))
-              (own (and (axiom-p axiom) (axiom-label axiom))))
-         (loop for atom in (disjuncts (sentence-formula sentence))
-                 thereis (and (consp atom) (member (first atom) '(:event :predicate))
-                              (let* ((event (eq (first atom) :event))
-                                     (labels (if event
-                                                 (event-labels theory)
-                                                 (predicate-labels (outline-ground outline)
-                                                                   (second atom))))
-                                     (definition (gethash (second atom)
-                                                          (if event
-                                                              (outline-events outline)
-                                                              (outline-predicates outline)))))
-                                (and definition
-                                     (null (rest labels)) labels
-                                     (not (definition-ahead-p definition))
-                                     (if (first labels)
-                                         (eq own (first labels))
-                                         (not (eq own :facts))))))))))
+       (loop for atom in (disjuncts (sentence-formula sentence))
+               thereis (and (member (first atom) '(:event :predicate))
+                            (let ((labels (atom-labels (outline-ground outline) (first atom)
+                                                       (second atom)))
+                                  (definition (gethash (second atom)
+                                                       (if (eq (first atom) :event)
+                                                           (outline-events outline)
+                                                           (outline-predicates outline)))))
+                              (and definition (not (definition-ahead-p definition))
+                                   (= 1 (length labels))
+                                   (supporting-p (sentence-axiom sentence) (first labels))))))))
 
 ;;; Exclusions
 
@@ -205,7 +202,7 @@ known: if no such sentence speaks of a timepoint."
          (statics (make-array (length atoms) :initial-element :open)))
     (loop for sentence in (ground-theory-sentences ground)
           when (and (sentence-absolute sentence) (null (formula-reach (sentence-formula sentence))))
-            do (push (sentence-demand sentence (outline-predicates outline))
+            do (push (sentence-demand outline sentence)
                      (outline-static-demands outline)))
     (loop for atom across atoms
           for index from 0
@@ -258,7 +255,7 @@ known: if no such sentence speaks of a timepoint."
       (dolist (sentence (ground-theory-sentences ground))
         (unless (or (sentence-absolute sentence) (member sentence used)
                     (provided-p outline sentence))
-          (let ((demand (sentence-demand sentence (outline-predicates outline))))
+          (let ((demand (sentence-demand outline sentence)))
             (note-late-demands outline demand sentence)
             (file-demand outline demand))))
       (add-exclusions outline)

@@ -41,15 +41,14 @@
         (:terminates (assert-head (negate fluent)) (assert-head (negate released)))
         (:releases (assert-head released))))))
 
+(defun dated-effect-formula (effect time)
+  "Return the ground formula that the event of EFFECT happens at TIME and the guard holds."
+  (fold :and (list (list :event (effect-event effect) time)
+                   (shift-formula (effect-guard effect) (effect-shift effect time)))))
+
 (defun effect-literals (encoder fluent kind time absolute)
-  (let ((ground (encoder-ground encoder)))
-    (loop for effect in (fluent-effects ground fluent kind (and absolute time))
-          collect (formula-literal
-                   encoder
-                   (fold :and (list (list :event (effect-event effect)
-                                          (if (effect-time effect) time 0))
-                                    (effect-guard effect)))
-                   (effect-shift effect time)))))
+  (loop for effect in (fluent-effects (encoder-ground encoder) fluent kind (and absolute time))
+        collect (formula-literal encoder (dated-effect-formula effect time) 0)))
 
 (defun encode-fluent (encoder fluent template time absolute)
   "Add DEC5 to DEC12 for FLUENT between TIME and the next timepoint.  ABSOLUTE is true if TIME is a
@@ -65,6 +64,11 @@ timepoint, and no distance."
         (with-source (encoder template absolute :effect effect)
           (assert-effect encoder effect time))))
     (flet ((literals (kind) (effect-literals encoder fluent kind time absolute)))
+      (when (and (eq release :always) (mention-non-inertial-p encoder))
+        ;; There the axioms DEC5 and DEC6 mention fluents that are always released, so that they
+        ;; are atoms, and counted.
+        (add-clause encoder (list now (negate now)))
+        (add-clause encoder (list next (negate next))))
       (unless (eq release :always)
         (with-source (encoder template absolute :inertia fluent)
           (let ((initiated (literals :initiates)) (terminated (literals :terminates)))
@@ -75,6 +79,10 @@ timepoint, and no distance."
           (add-clause encoder (list* (negate released) released-next
                                      (append (literals :initiates) (literals :terminates))))
           (add-clause encoder (list* released (negate released-next) (literals :releases))))))))
+
+(defun mention-non-inertial-p (encoder)
+  "Return true if the theory asks for the third encoding of the Discrete Event Calculus Reasoner."
+  (eql 3 (getf (theory-options (ground-theory-theory (encoder-ground encoder))) :encoding)))
 
 (defun encode-fluents (encoder)
   (let* ((ground (encoder-ground encoder))
@@ -104,59 +112,75 @@ them, those of the kind STOP end them."
   (let* ((ground (encoder-ground encoder))
          (changes (remove kind (svref (ground-theory-changes ground) cause)
                           :key #'gradual-change-kind :test-not #'eq))
-         (relative (remove-if #'gradual-change-time changes))
-         (longest (reduce #'max relative :key #'gradual-change-offset :initial-value 0))
+         (dated (if (some #'effect-time (svref (ground-theory-effects-on ground) cause))
+                    changes
+                    (remove nil changes :key #'gradual-change-time)))
+         (horizon (encoder-horizon encoder)))
+    (encode-relative-trajectories encoder cause (set-difference changes dated) start stop)
+    (dolist (change dated)
+      (if (gradual-change-time change)
+          (encode-dated-trajectory encoder change (gradual-change-time change) start stop)
+          (loop for time from (car horizon) below (cdr horizon)
+                do (encode-dated-trajectory encoder change time start stop))))))
+
+(defun encode-relative-trajectories (encoder cause changes start stop)
+  "Add the axioms of the trajectories CHANGES of CAUSE as templates."
+  (let* ((ground (encoder-ground encoder))
+         (begin (fluent-effects ground cause start nil))
+         (end (fluent-effects ground cause stop nil))
+         (longest (reduce #'max changes :key #'gradual-change-offset :initial-value 0))
          (begun nil)
-         (stopped (make-array (+ 1 longest) :initial-element nil)))
-    (when relative
+         (stopped (make-array (1+ longest) :initial-element nil)))
+    (when changes
       (with-source (encoder (find-template encoder 0 1) nil :begin cause)
         (setf begun (new-code encoder))
-        (dolist (effect (fluent-effects ground cause start nil))
-          (assert-formula encoder (negated (effect-formula effect)) 0 (list begun))))
-      (loop for offset from 2 to longest
-            do (with-source (encoder (find-template encoder 0 offset) nil :stop cause)
-                 (setf (svref stopped offset)
-                       (disjunction-literal
-                        encoder
-                        (remove nil (cons (svref stopped (1- offset))
-                                          (loop for effect in (fluent-effects ground cause stop nil)
-                                                collect (effect-literal encoder effect
-                                                                        (1- offset)))))))))
-      (dolist (change relative)
-        (let ((offset (gradual-change-offset change)))
-          (with-source (encoder (find-template encoder 0 offset) nil :trajectory change)
-            (assert-formula encoder (negated (gradual-change-guard change)) 0
-                            (list (- begun) (svref stopped offset)
-                                  (formula-literal encoder (changed-formula change offset) 0)))))))
-    (dolist (change changes)
-      (when (gradual-change-time change)
-        (encode-dated-trajectory encoder change start stop)))))
+        (dolist (effect begin)
+          (assert-formula encoder (negated (effect-formula effect)) 0 (list begun)))
+        ;; Not needed, but where no event can begin the trajectory its clauses are dropped early.
+        (add-clause encoder (cons (- begun)
+                                  (loop for effect in begin
+                                        collect (effect-literal encoder effect 0))))))
+    (loop for offset from 2 to longest
+          do (with-source (encoder (find-template encoder 0 offset) nil :stop cause)
+               (setf (svref stopped offset)
+                     (disjunction-literal
+                      encoder
+                      (remove nil (cons (svref stopped (1- offset))
+                                        (loop for effect in end
+                                              collect (effect-literal encoder effect
+                                                                      (1- offset)))))))))
+    (dolist (change (reverse changes))
+      (let ((offset (gradual-change-offset change)))
+        (with-source (encoder (find-template encoder 0 offset) nil :trajectory change)
+          (assert-formula encoder (negated (gradual-change-guard change)) 0
+                          (list (- begun) (svref stopped offset)
+                                (formula-literal encoder (changed-formula change 0) 0))))))))
 
-(defun changed-formula (change end)
-  "Return the ground formula that what CHANGE leads to is so at END."
-  (if (gradual-change-term change)
-      (list :compare := (list :value (gradual-change-fluent change) end)
-            (gradual-change-term change))
-      (list :fluent (gradual-change-fluent change) end)))
+(defun changed-formula (change time)
+  "Return the ground formula that what CHANGE leads to, begun at TIME, is so."
+  (let ((end (+ time (gradual-change-offset change))))
+    (if (gradual-change-term change)
+        (list :compare := (list :value (gradual-change-fluent change) end)
+              (shift-formula (gradual-change-term change)
+                             (if (gradual-change-time change) 0 time)))
+        (list :fluent (gradual-change-fluent change) end))))
 
-(defun encode-dated-trajectory (encoder change start stop)
-  "Add the axiom of a trajectory that begins at a given timepoint."
+(defun encode-dated-trajectory (encoder change time start stop)
+  "Add the axiom of the trajectory CHANGE that begins at the timepoint TIME."
   (let* ((ground (encoder-ground encoder))
          (cause (gradual-change-cause change))
-         (time (gradual-change-time change))
-         (end (+ time (gradual-change-offset change))))
+         (end (+ time (gradual-change-offset change)))
+         (shift (if (gradual-change-time change) 0 time)))
     (flet ((happening (kind time)
              (fold :or (loop for effect in (fluent-effects ground cause kind time)
-                             collect (fold :and (list (list :event (effect-event effect) time)
-                                                      (shift-formula (effect-guard effect)
-                                                                     (effect-shift effect
-                                                                                   time))))))))
+                             collect (dated-effect-formula effect time)))))
       (when (<= end (cdr (encoder-horizon encoder)))
         (with-source (encoder (encoder-absolute encoder) t :trajectory change)
           (assert-formula encoder
                           (fold :or (list* (negated (happening start time))
-                                           (negated (gradual-change-guard change))
-                                           (changed-formula change end)
+                                           (negated (shift-formula (gradual-change-guard change)
+                                                                   shift))
+                                           (changed-formula change time)
                                            (loop for between from (1+ time) below end
                                                  collect (happening stop between))))
                           0))))))

@@ -19,7 +19,7 @@
       "Return the severity of a finding: :ERROR, :WARNING or :NOTE."
       (documentation 'finding-kind 'function)
       "Return what a finding is about: :INCONSISTENT, :VACUOUS-AXIOM, :IMPOSSIBLE-EVENT,
-:MISSING-EFFECT, :CONSTANT-FLUENT, :UNREAD-FLUENT or :UNCONSTRAINED-FLUENT."
+:MISSING-EFFECT, :CONSTANT-FLUENT, :UNREAD-FLUENT, :UNCONSTRAINED-FLUENT or :EMPTY-COMPLETION."
       (documentation 'finding-subject 'function)
       "Return the name of the theory, axiom, event or fluent that a finding is about, a keyword."
       (documentation 'finding-text 'function)
@@ -149,6 +149,14 @@ conditions."
             collect (make-finding :warning :missing-effect name
                                   (format nil "the event ~a changes nothing" (name-text name))))))
 
+(defun empty-completions (theory)
+  (loop for (label predicate) in (theory-completions theory)
+        when (and label (notany (lambda (axiom) (eq (axiom-label axiom) label))
+                                (theory-axioms theory)))
+          collect (make-finding :note :empty-completion predicate
+                                (format nil "no axiom has the label ~a, so ~a is never true"
+                                        (name-text label) (name-text predicate)))))
+
 (defun makes-event-happen-p (form)
   (mentioned-p :happens form))
 
@@ -206,5 +214,6 @@ timepoints.  Signals THEORY-NOT-FOUND, NO-HORIZON."
                      (impossible-events reasoner theory)
                      (events-without-effect theory)
                      (constant-fluents reasoner theory)))
+           (empty-completions theory)
            (unread-fluents theory)
            (unconstrained-fluents theory horizon))))))

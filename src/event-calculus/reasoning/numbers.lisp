@@ -38,15 +38,15 @@
         (:< (z3:less left right))
         (:<= (z3:less-or-equal left right))))))
 
-(defun assert-comparisons (reasoner template time)
-  "Tie the comparisons of TEMPLATE at TIME to their atoms."
+(defun assert-comparisons (reasoner template time used)
+  "Tie the comparisons of TEMPLATE at TIME to their atoms, where clauses USED have them."
   (loop for (code . comparison) in (template-comparisons template)
-        do (z3:solver-assert
-            (reasoner-solver reasoner)
-            (z3:equivalence (z3:clause-set-term
-                             (reasoner-clause-set reasoner)
-                             (encoder-variable (reasoner-encoder reasoner) code time))
-                            (comparison-proposition reasoner comparison time)))))
+        for variable = (encoder-variable (reasoner-encoder reasoner) code time)
+        do (unless (zerop (sbit used variable))
+             (z3:solver-assert (reasoner-solver reasoner)
+                               (z3:equivalence
+                                (z3:clause-set-term (reasoner-clause-set reasoner) variable)
+                                (comparison-proposition reasoner comparison time))))))
 
 (defun current-numbers (reasoner)
   "Return a table from (numeric . time) to the numbers of the model that the last check found."

@@ -13,11 +13,6 @@
                         (or (null (effect-time effect)) (eql (effect-time effect) time))))
                  (svref (ground-theory-effects-on-numeric ground) numeric)))
 
-(defun dated-effect-formula (effect time)
-  "Return the ground formula that the event of EFFECT happens at TIME and the guard holds."
-  (fold :and (list (list :event (effect-event effect) time)
-                   (shift-formula (effect-guard effect) (effect-shift effect time)))))
-
 (defun encode-numeric-fluent (encoder numeric template time absolute)
   "Add what changes and what keeps the value of NUMERIC between TIME and the next timepoint."
   (let* ((ground (encoder-ground encoder))

@@ -21,6 +21,9 @@ CLOSE-REASONER."
   (clause-set nil)
   ;; for each propositional variable whether it occurs in a clause
   (occurring (make-array 64 :element-type 'bit :initial-element 0) :type simple-bit-vector)
+  ;; for each propositional variable whether unit propagation has fixed it
+  (truths (make-array 64 :element-type '(unsigned-byte 2) :initial-element 0)
+   :type (simple-array (unsigned-byte 2) (*)))
   (tracked nil :type boolean :read-only t)
   ;; formulas with timepoints by number that are encoded with the theory
   (assumptions '() :type list :read-only t)
@@ -104,6 +107,12 @@ FROM, NIL for none so far, to that of HORIZON."
                bits)
       bits))
 
+(defun used-variables (clauses size)
+  (let ((bits (make-array size :element-type 'bit :initial-element 0)))
+    (loop for literal across (the (simple-array fixnum (*)) clauses)
+          do (setf (sbit bits (abs literal)) 1))
+    bits))
+
 (defun add-to-solver (reasoner from horizon)
   "Assert the clauses that SCHEDULE names."
   (let* ((encoder (reasoner-encoder reasoner))
@@ -117,9 +126,14 @@ FROM, NIL for none so far, to that of HORIZON."
     (loop for (template . time) in jobs
           do (setf position (copy-template template encoder time output position
                                            (reasoner-occurring reasoner))))
+    (unless (reasoner-tracked reasoner)
+      (multiple-value-bind (clauses truths) (simplify-clauses output (reasoner-truths reasoner) size)
+        (setf output clauses
+              (reasoner-truths reasoner) truths)))
     (z3:assert-clauses (reasoner-clause-set reasoner) output)
-    (loop for (template . time) in jobs
-          do (assert-comparisons reasoner template time)
+    (loop with used = (used-variables output size)
+          for (template . time) in jobs
+          do (assert-comparisons reasoner template time used)
              (dolist (codes (template-exclusions template))
                (let ((variables (loop for code in codes
                                       collect (encoder-variable encoder code time))))
@@ -166,6 +180,8 @@ FROM, NIL for none so far, to that of HORIZON."
                                                           (lambda (number)
                                                             (variable-text reasoner number))))
             (reasoner-occurring reasoner) (make-array 64 :element-type 'bit :initial-element 0)
+            (reasoner-truths reasoner) (make-array 64 :element-type '(unsigned-byte 2)
+                                                      :initial-element +unknown+)
             (reasoner-encoder reasoner)
             (encode ground (reasoner-horizon reasoner)
                     :tracked (reasoner-tracked reasoner)
