@@ -6,9 +6,12 @@
 (in-suite readme)
 
 (defun readme-block (beginning)
-  "Return the lines of the README's code block that has a line which begins with BEGINNING."
+  (text-block "README.md" beginning))
+
+(defun text-block (file beginning)
+  "Return the lines of the code block in FILE that has a line which begins with BEGINNING."
   (let ((block '()) (inside nil))
-    (dolist (line (uiop:read-file-lines (root-file "README.md")))
+    (dolist (line (uiop:read-file-lines (root-file file)))
       (cond ((not (uiop:string-prefix-p "```" line)) (when inside (push line block)))
             ((not inside) (setf inside t block '()))
             ((find beginning block :test #'uiop:string-prefix-p) (return (nreverse block)))
@@ -29,12 +32,19 @@
           while position
           do (write-string new stream))))
 
+(defun unfinished-p (text)
+  "Return true if the form in TEXT goes on."
+  (handler-case (let ((*package* (find-package '#:discrepancy-finder-user)))
+                  (read-from-string text)
+                  nil)
+    (end-of-file () t)))
+
 (defun transcript-entries (lines)
   "Return the list of (form-text expected-output) of the REPL transcript LINES, whose prompt is *."
   (let ((entries '()))
     (dolist (line lines (nreverse entries))
       (cond ((uiop:string-prefix-p "* " line) (push (list (subseq line 2) "") entries))
-            ((uiop:string-prefix-p " " line)
+            ((and (uiop:string-prefix-p " " line) (unfinished-p (first (first entries))))
              (setf (first (first entries)) (format nil "~a ~a" (first (first entries)) line)))
             (t (setf (second (first entries))
                      (format nil "~@[~a~%~]~a"
@@ -42,16 +52,33 @@
                                (and (string/= before "") before))
                              line)))))))
 
+(defun entry-output (text)
+  "Return what the REPL shows for the form TEXT: what it prints, and its values."
+  (let* ((values '())
+         (printed (with-output-to-string (*standard-output*)
+                    (let ((*print-right-margin* 1000))
+                      (setf values (multiple-value-list
+                                    (eval (let ((*read-default-float-format* 'single-float))
+                                            (read-from-string text)))))))))
+    (setf * (first values))
+    (let ((*print-right-margin* 1000))
+      (string-right-trim '(#\Newline) (format nil "~@[~a~%~]~{~s~^~%~}"
+                                              (and (string/= printed "")
+                                                   (string-trim '(#\Newline) printed))
+                                              values)))))
+
+(defun check-entries (entries)
+  (let ((* nil) (*package* (find-package '#:discrepancy-finder-user)))
+    (loop for (text expected) in entries
+          do (let ((output (entry-output text)))
+               (is (string= expected output) "~a~%shows ~a~%the text ~a" text output expected)))))
+
 (test the-readme-shows-the-repl
-  (let ((entries (transcript-entries (readme-block "* (asdf:load-system")))
-        (* nil))
+  (let ((entries (transcript-entries (readme-block "* (asdf:load-system"))))
     (is (= 9 (length entries)))
-    (let ((*package* (find-package '#:discrepancy-finder-user)))
-      (loop for (text expected) in (cddr entries)
-            do (let ((values (multiple-value-list
-                              (eval (let ((*read-default-float-format* 'single-float))
-                                      (read-from-string text)))))
-                     (*print-right-margin* 1000))
-                 (setf * (first values))
-                 (is (string= expected (format nil "~{~s~^~%~}" values))
-                     "~a~%shows ~{~s~%~}README ~a" text values expected))))))
+    (check-entries (cddr entries))))
+
+(test the-text-on-theories-shows-the-repl
+  (let ((entries (transcript-entries (text-block "docs/theories.md" "* (define-theory yale"))))
+    (is (= 6 (length entries)))
+    (check-entries entries)))

@@ -74,3 +74,21 @@ known, the axiom, the sub-form and what was expected."))
                                    horizon must be given."
                            (name-text theory))))))
   (:documentation "Signaled when it is not known which timepoints a question is about."))
+
+(define-condition undetermined (event-calculus-error)
+  ((atom :initarg :atom :reader undetermined-atom :documentation "The ground atom, a list.")
+   (kind :initarg :kind :reader undetermined-kind
+         :documentation ":FLUENT, :RELEASED, :EVENT, :PREDICATE or :STATIC, a timeless atom.")
+   (time :initarg :time :reader undetermined-time :documentation "The timepoint, or NIL.")
+   (theory :initarg :theory :reader undetermined-theory :documentation "The theory's name."))
+  (:report (lambda (condition stream)
+             (with-slots (atom kind time theory) condition
+               (format stream "Theory ~a leaves open whether ~a ~a~@[ at ~d~], and the state has no ~
+                               Z3 context for a variable."
+                       (name-text theory) (formula-text atom)
+                       (ecase kind
+                         (:fluent "holds") (:released "is released") (:event "happens")
+                         ((:predicate :static) "is true"))
+                       time))))
+  (:documentation "Signaled when a state without a Z3 context is progressed to a state of which the
+theory does not determine everything."))

@@ -8,7 +8,7 @@ them and why, and what they say of a state after known events.")
    ;; theories
    #:define-theory #:load-theory #:find-theory #:make-checked-theory #:register-theory
    #:theory #:theory-name #:theory-documentation #:theory-syntax #:theory-file
-   #:theory-sorts #:theory-predicates #:theory-functions #:theory-fluents #:theory-non-inertial
+   #:theory-sorts #:theory-predicates #:theory-extensions #:theory-functions #:theory-fluents #:theory-non-inertial
    #:theory-manual-release #:theory-events #:theory-axioms #:theory-completions
    #:theory-exclusions #:theory-time-range #:theory-offset-range #:theory-options
    #:sort-elements #:element-sort #:sort-name #:sort-parents #:sort-range #:sort-constants
@@ -46,8 +46,11 @@ them and why, and what they say of a state after known events.")
    #:finding-position
    ;; progression
    #:state #:state-time #:fluent-value #:symbolic-state #:concrete-state #:initial-conditions
-   #:state-values #:state-ground #:progress #:holds #:state-fluents
+   #:state-values #:state-ground #:progress #:holds #:state-fluents #:state-context
+   #:state-predecessor #:state-happenings #:state-exact-p #:state-limits
    ;; conditions
    #:event-calculus-error #:theory-error #:theory-error-theory #:theory-error-axiom
    #:theory-not-found #:state-constraint-not-found #:unknown-atom
-   #:no-horizon #:no-horizon-theory #:no-horizon-horizon))
+   #:no-horizon #:no-horizon-theory #:no-horizon-horizon
+   #:undetermined #:undetermined-atom #:undetermined-kind #:undetermined-time
+   #:undetermined-theory))

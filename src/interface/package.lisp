@@ -15,6 +15,7 @@
                 #:define-theory #:load-theory #:find-theory #:define-state-constraint
                 #:load-e-theory #:save-e-theory #:write-e-theory
                 #:make-reasoner #:close-reasoner #:with-reasoner #:extend-horizon
+                #:theory #:model #:reasoner #:explanation #:finding
                 #:models #:count-models #:model-fluents #:model-events #:model-literals
                 #:possible-p #:consistent-p #:entailed-p #:consequences #:abduce
                 #:why #:why-impossible #:why-inconsistent #:explanation-core
@@ -60,6 +61,7 @@
    ;; questions to theories
    #:load-e-theory #:save-e-theory #:write-e-theory
    #:make-reasoner #:close-reasoner #:with-reasoner #:extend-horizon
+   #:theory #:model #:reasoner #:explanation #:finding
    #:models #:count-models #:model-fluents #:model-events #:model-literals
    #:possible-p #:consistent-p #:entailed-p #:consequences #:abduce
    #:why #:why-impossible #:why-inconsistent #:explanation-core #:explanation-sentences

@@ -20,7 +20,8 @@
     "arcsin" "arccos" "arctan" "arccsc" "arcsec" "arccot" "int2bv" "bv2nat" "nat2bv"
     "/_total" "div_total" "mod_total" "log" "root-obj"
     ;; arrays, sets, sequences, data types, functions, bit-vectors
-    "Array" "select" "store" "const" "Set" "Bag" "bag" "Seq" "Tuple" "Relation" "tuple" "is" "update"
+    "Array" "select" "store" "const" "Set" "Bag" "bag" "Seq" "Tuple" "Relation" "tuple" "is"
+    "update"
     "union" "intersection" "setminus" "member" "subset" "singleton" "insert" "card" "complement"
     "emptyset" "univset" "transpose" "tclosure" "join" "product" "iden" "map" "rel" "eqrange"
     "BitVec" "String" "RegLan" "concat" "extract" "repeat" "zero_extend" "sign_extend"

@@ -179,6 +179,11 @@
           (write-comment (name-text (axiom-name axiom)) stream))
         (format stream "~{~a~%~}"
                 (sentence-lines names axiom (axiom-e-label theory names axiom predicates)))))
+    (loop for (predicate . tuples) in (theory-extensions theory)
+          for text = (e-name names :symbol predicate)
+          do (dolist (tuple tuples)
+               (format stream "~a: ~a.~%" text (e-atom-text names (cons predicate tuple))))
+             (format stream "completion ~a ~a~%" text text))
     (loop for (label predicate) in (theory-completions theory)
           do (format stream "completion ~@[~a ~]~a~%"
                      (cond (label (e-name names :label label))

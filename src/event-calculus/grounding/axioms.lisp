@@ -52,8 +52,8 @@ time variables, and what is added: an integer, or NIL if that depends on other v
                     (values right (and (integerp left) left)))))))))
 
 (defun relative-form-p (theory form)
-  "Return true, and the time variable if there is one, if FORM is about one arbitrary timepoint: it
-has one free time variable, which only stands in times of atoms.  The times inside of quantifiers
+  "Return true, the time variable and the distances of the first and the last time from it if FORM is
+about one arbitrary timepoint: it has one free time variable, which only stands in times of atoms.  The times inside of quantifiers
 must be among those outside, for there only the quantifier's instance is dropped, and not FORM's,
 where they are beyond the horizon."
   (let ((variable nil) (outer (list 0 0)) (inner (list 0 0)))
@@ -105,7 +105,16 @@ where they are beyond the horizon."
       (check (strip-quantifiers form) '())
       (when (or (< (first inner) (first outer)) (> (second inner) (second outer)))
         (fail))
-      (values (and variable t) variable))))
+      (values (and variable t) variable outer))))
+
+(defun step-clause-p (theory kind condition head)
+  "Return true if the effect axiom or axiom of a trajectory with CONDITION and HEAD is about one
+arbitrary timepoint, the time of its head, and the next."
+  (multiple-value-bind (relative variable span)
+      (relative-form-p theory (list :implies condition head))
+    (and relative
+         (eq variable (if (eq kind :effect) (first (last head)) (third head)))
+         (>= (first span) 0) (<= (second span) 1))))
 
 ;;; Instances
 
@@ -307,7 +316,9 @@ ABSOLUTE-EFFECTS is true if an effect axiom is not."
   (destructuring-bind (axiom kind condition head) clause
     (declare (ignore axiom))
     (or (member kind '(:initially :value))
-        (and (relative-form-p theory (if (eq condition t) head (list :implies condition head)))
+        (and (if (eq kind :sentence)
+                 (relative-form-p theory head)
+                 (step-clause-p theory kind condition head))
              (not (and absolute-effects (eq kind :sentence) (mentions-effects-p head)))))))
 
 (defparameter *clause-order* '(:value :effect :trajectory :initially :sentence)

@@ -216,21 +216,29 @@ places in the environment."
   (let* ((ground (compilation-ground compilation))
          (sorts (rest declaration))
          (name (first form))
+         (table (extension-table (ground-theory-theory ground) name))
          (place (and (= 1 (count :time sorts)) (position :time sorts))))
-    (if place
-        (let ((arguments (compile-arguments compilation
-                                            (append (subseq (rest form) 0 place)
-                                                    (nthcdr (1+ place) (rest form)))
-                                            (remove :time sorts)))
-              (time (compile-time compilation (nth place (rest form)))))
-          (declare (type function arguments time))
-          (environment-lambda (environment)
-            (list :predicate
-                  (intern-atom (ground-theory-predicates ground)
-                               (cons name (funcall arguments environment)))
-                  (funcall time environment))))
-        (let ((arguments (compile-arguments compilation (rest form) sorts)))
-          (declare (type function arguments))
-          (environment-lambda (environment)
-            (list :static (intern-atom (ground-theory-statics ground)
-                                       (cons name (funcall arguments environment)))))))))
+    (cond
+      (table
+       (let ((arguments (compile-arguments compilation (rest form) sorts)))
+         (declare (type function arguments))
+         (environment-lambda (environment)
+           (values (gethash (funcall arguments environment) table)))))
+      (place
+       (let ((arguments (compile-arguments compilation
+                                           (append (subseq (rest form) 0 place)
+                                                   (nthcdr (1+ place) (rest form)))
+                                           (remove :time sorts)))
+             (time (compile-time compilation (nth place (rest form)))))
+         (declare (type function arguments time))
+         (environment-lambda (environment)
+           (list :predicate
+                 (intern-atom (ground-theory-predicates ground)
+                              (cons name (funcall arguments environment)))
+                 (funcall time environment)))))
+      (t
+       (let ((arguments (compile-arguments compilation (rest form) sorts)))
+         (declare (type function arguments))
+         (environment-lambda (environment)
+           (list :static (intern-atom (ground-theory-statics ground)
+                                      (cons name (funcall arguments environment))))))))))

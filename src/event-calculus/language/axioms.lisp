@@ -163,6 +163,21 @@ the completed definition."
                (theory-problem theory ":completion" nil "there is no predicate ~a to complete"
                                (name-text predicate))))))
 
+(defun check-extensions (theory)
+  (loop for (name . tuples) in (theory-extensions theory)
+        for sorts = (rest (assoc name (theory-predicates theory)))
+        do (dolist (tuple tuples)
+             (unless (and (= (length tuple) (length sorts))
+                          (loop for element in tuple
+                                for sort in sorts
+                                always (element-of-sort-p theory element sort)))
+               (theory-problem theory ":predicates" tuple
+                               "the arguments of ~a are of the sorts ~{~a~^, ~}" (name-text name)
+                               (mapcar #'name-text sorts))))
+           (when (find name (theory-completions theory) :key #'second)
+             (theory-problem theory ":completion" nil "~a is given as a table already"
+                             (name-text name)))))
+
 (defun check-axioms (theory)
   (loop for (axiom . others) on (theory-axioms theory)
         do (check-axiom theory axiom)
@@ -170,8 +185,8 @@ the completed definition."
              (theory-problem theory axiom nil "another axiom has the same name"))))
 
 (defun make-checked-theory (&rest parts
-                            &key extends name documentation syntax file sorts predicates functions
-                              fluents numeric-fluents non-inertial manual-release events axioms completions
+                            &key extends name documentation syntax file sorts predicates
+                              extensions functions fluents numeric-fluents non-inertial manual-release events axioms completions
                               exclusions time-range offset-range options)
   "Return the theory NAME of the given parts, which are as the readers of a THEORY return them;
 those of the theories EXTENDS come first.  Signals THEORY-ERROR if they do not fit together."
@@ -187,6 +202,7 @@ those of the theories EXTENDS come first.  Signals THEORY-ERROR if they do not f
             (apply #'make-theory :allow-other-keys t
                    :sorts (all #'theory-sorts sorts)
                    :predicates (all #'theory-predicates predicates)
+                   :extensions (all #'theory-extensions extensions)
                    :functions (all #'theory-functions functions)
                    :fluents (all #'theory-fluents fluents)
                    :numeric-fluents (all #'theory-numeric-fluents numeric-fluents)
@@ -208,5 +224,6 @@ those of the theories EXTENDS come first.  Signals THEORY-ERROR if they do not f
       (check-sorts theory)
       (check-signatures theory)
       (check-names theory)
+      (check-extensions theory)
       (check-axioms theory)
       theory)))

@@ -81,6 +81,27 @@
         (make-element-sort :name name :parents parents :range range :terms terms
                            :constants (nreverse constants))))))
 
+(defun predicate-declarations (theory-name entries)
+  "Return the declarations (name sort*) of the predicates ENTRIES, and a list of (name tuple*) for
+those that are given as tables: ((name sort*) tuple*)."
+  (let ((tables '()))
+    (values
+     (symbol-declarations theory-name ":predicates"
+                          (loop for entry in entries
+                                if (and (consp entry) (consp (first entry)))
+                                  do (unless (and (proper-list-p entry)
+                                                  (every #'proper-list-p (rest entry))
+                                                  (symbolp (first (first entry))))
+                                       (theory-problem theory-name ":predicates" entry
+                                                       "((name sort ...) (element ...) ...) was ~
+                                                        expected"))
+                                     (push (normalize (cons (first (first entry)) (rest entry))
+                                                      theory-name ":predicates")
+                                           tables)
+                                  and collect (first entry)
+                                else collect entry))
+     (nreverse tables))))
+
 (defun function-declarations (theory-name entries)
   (dolist (entry entries (normalize entries theory-name ":functions"))
     (unless (and (consp entry) (proper-list-p entry) (= (length entry) 2) (consp (first entry))
@@ -166,7 +187,9 @@
          (name (name-keyword name))
          (options (clause-options name clauses position)))
     (flet ((option (key) (getf options key)))
-      (let* ((non-inertial (symbol-declarations name ":non-inertial-fluents"
+      (let* ((predicates (multiple-value-list
+                          (predicate-declarations name (option :predicates))))
+             (non-inertial (symbol-declarations name ":non-inertial-fluents"
                                                 (option :non-inertial-fluents)))
              (axioms (parse-axioms name (option :axioms) 1 nil))
              (facts (parse-axioms name (option :facts) (1+ (length axioms)) +facts+))
@@ -176,7 +199,7 @@
          :name name :documentation documentation :file file
          :extends (mapcar #'find-theory (option :extends))
          :sorts (mapcar (lambda (entry) (sort-declaration name entry)) (option :sorts))
-         :predicates (symbol-declarations name ":predicates" (option :predicates))
+         :predicates (first predicates) :extensions (second predicates)
          :functions (function-declarations name (option :functions))
          :fluents (append (symbol-declarations name ":fluents" (option :fluents)) non-inertial)
          :numeric-fluents (symbol-declarations name ":numeric-fluents" (option :numeric-fluents))
@@ -198,7 +221,7 @@
 (defmacro define-theory (&whole form name &body clauses)
   "Define the theory NAME.  CLAUSES are an optional documentation string and any number of
   (:sorts (name element* [(:parent sort*)] [(:range low high)] [(:terms (name sort*)*)])*),
-  (:predicates (name sort*)*), (:functions ((name sort*) value-sort)*), (:fluents (name sort*)*),
+  (:predicates (name sort*)-or-((name sort*) tuple*)*), (:functions ((name sort*) value-sort)*), (:fluents (name sort*)*),
   (:non-inertial-fluents (name sort*)*), (:numeric-fluents (name sort*)*), (:events (name sort*)*),
   (:axioms axiom*), (:facts axiom*),
   (:narrative axiom*), (:completion predicate-or-(label predicate)*), (:mutex (name*)*),

@@ -38,6 +38,7 @@
   (file nil :type (or null string) :read-only t)
   (sorts '() :type list :read-only t)
   (predicates '() :type list :read-only t)
+  (extensions '() :type list :read-only t)
   (functions '() :type list :read-only t)
   (fluents '() :type list :read-only t)
   (numeric-fluents '() :type list :read-only t)
@@ -52,7 +53,8 @@
   (options '() :type list :read-only t)
   (state-constraints '() :type list)
   (elements (make-hash-table :test 'eq) :type hash-table :read-only t)
-  (element-tables (make-hash-table :test 'eq) :type hash-table :read-only t))
+  (element-tables (make-hash-table :test 'eq) :type hash-table :read-only t)
+  (extension-tables (make-hash-table :test 'eq) :type hash-table :read-only t))
 
 (setf (documentation 'theory-name 'function)
       "Return the name of a theory, a keyword."
@@ -66,6 +68,8 @@
       "Return the list of the sorts that a theory declares."
       (documentation 'theory-predicates 'function)
       "Return the predicates of a theory: a list of (name argument-sort*)."
+      (documentation 'theory-extensions 'function)
+      "Return the predicates of a theory that are given as tables: a list of (name tuple*)."
       (documentation 'theory-functions 'function)
       "Return the functions of a theory: a list of ((name argument-sort*) value-sort)."
       (documentation 'theory-fluents 'function)
@@ -146,6 +150,18 @@ all axioms."
     (if (theory-sort theory full)
         full
         (variable-sort-name variable))))
+
+(defun extension-table (theory name)
+  "Return the table of the tuples for which the predicate NAME of THEORY is true, or NIL if the
+predicate is not given as a table."
+  (let ((extension (assoc name (theory-extensions theory)))
+        (tables (theory-extension-tables theory)))
+    (when extension
+      (or (gethash name tables)
+          (let ((table (make-hash-table :test 'equal)))
+            (dolist (tuple (rest extension))
+              (setf (gethash tuple table) t))
+            (setf (gethash name tables) table))))))
 
 (defun find-function (theory name)
   (find name (theory-functions theory) :key #'caar))

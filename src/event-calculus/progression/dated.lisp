@@ -137,7 +137,7 @@ sentences."
 (defun dated-alternatives (outline kind number time)
   "Return the supports that the atom of KIND with NUMBER has at TIME only, a list for each of its
 completions."
-  (and (ground-theory-absolute-clauses (outline-ground outline))
+  (and (outline-dated-p outline)
        (loop for (other-kind other-number . alternatives)
                in (gethash time (dated-supports (outline-dated-until outline time)))
              when (and (eq kind other-kind) (eql number other-number))
@@ -157,7 +157,15 @@ completions."
         (enter-demands outline dated sentences)
         (dolist (sentence sentences) (enter-supports outline dated sentence))
         (enter-effects dated copy)
+        (set-release outline copy)
         dated))))
+
+(defun needs-dated-p (ground)
+  "Return true if GROUND has dated instances or trajectories that grow with the horizon."
+  (and (or (ground-theory-absolute-clauses ground)
+           (and (growing-offsets-p (ground-theory-theory ground))
+                (trajectory-clauses (ground-theory-theory ground))))
+       t))
 
 (defun outline-dated-until (outline time)
   "Return the dated instances of OUTLINE for a horizon far beyond TIME."

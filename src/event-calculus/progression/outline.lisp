@@ -9,11 +9,10 @@
 (in-package #:discrepancy-finder.event-calculus)
 
 (defstruct (demand (:copier nil))
-  "That FORMULA, which spans the distances FIRST to LAST, is true.  AXIOM is the axiom behind it, or
-the exclusion, a list.  FLUENTS are the numbers of the fluents in it."
+  "That FORMULA is true at each timepoint; it looks at timepoints up to the distance LAST.  AXIOM is
+the axiom behind it, or the exclusion, a list.  FLUENTS are the numbers of the fluents in it."
   (axiom nil :type (or null axiom cons) :read-only t)
   (formula nil :type (or boolean cons) :read-only t)
-  (first 0 :type fixnum :read-only t)
   (last 0 :type fixnum :read-only t)
   (fluents '() :type list :read-only t))
 
@@ -35,7 +34,9 @@ true if one of them looks ahead."
   ;; tables from numbers to definitions
   (events (make-hash-table) :type hash-table)
   (predicates (make-hash-table) :type hash-table)
-  ;; the numbers of the fluents that can be released, and of the causes of trajectories
+  ;; for each fluent whether it can be released, as in the ground theory; the numbers of those that
+  ;; can, and of the causes of trajectories
+  (release #() :type simple-vector)
   (loose-fluents '() :type list)
   (causes '() :type list)
   ;; for each timeless atom T, NIL or :OPEN, and what must be true of these
@@ -51,7 +52,8 @@ true if one of them looks ahead."
   (exclusions '() :type list)
   ;; what is not exact whatever happens: a list of (axiom . reason)
   (limits '() :type list)
-  ;; the instances of the axioms that compare timepoints or name them by number
+  ;; the instances of the axioms that compare timepoints or name them by number; see dated.lisp
+  (dated-p nil :type boolean :read-only t)
   (dated nil))
 
 ;;; Influences
@@ -104,10 +106,14 @@ depend on the events of their timepoint.  Return the least integer if it has no 
   (max (sentence-last sentence) (formula-end outline (sentence-formula sentence))))
 
 (defun sentence-demand (outline sentence)
-  (make-demand :axiom (sentence-axiom sentence)
-              :formula (plain-parts-first (sentence-formula sentence))
-              :first (sentence-first sentence) :last (effective-last outline sentence)
-              :fluents (formula-fluents (sentence-formula sentence))))
+  "Return SENTENCE as a demand: moved, unless it is an instance for given timepoints, so that its
+first distance is 0."
+  (let ((shift (if (sentence-absolute sentence) 0 (- (sentence-first sentence))))
+        (formula (sentence-formula sentence)))
+    (make-demand :axiom (sentence-axiom sentence)
+                 :formula (plain-parts-first (shift-formula formula shift))
+                 :last (+ shift (effective-last outline sentence))
+                 :fluents (formula-fluents formula))))
 
 (defun guarding-events (formula)
   "Return the numbers of events at distance 0, as few as possible, such that FORMULA is true unless
@@ -123,11 +129,10 @@ one of them happens; or NIL if there are none."
               ((eq t (reduce #'without events :initial-value formula)) events))))))
 
 (defun file-demand (outline demand)
-  "Add DEMAND to the list of OUTLINE where it belongs."
+  "Add DEMAND, whose first distance is 0, to the list of OUTLINE where it belongs."
   (let* ((formula (demand-formula demand))
-         (once (and (zerop (demand-first demand)) (zerop (demand-last demand))))
-         (guards (and (zerop (demand-first demand)) (= 1 (demand-last demand))
-                      (guarding-events formula))))
+         (once (zerop (demand-last demand)))
+         (guards (and (= 1 (demand-last demand)) (guarding-events formula))))
     (cond (guards
            (dolist (event guards)
              (push demand (svref (outline-event-demands-of outline) event))))
@@ -191,8 +196,17 @@ NAMES holds."
 known: if no such sentence speaks of a timepoint."
   (let ((pairs (gethash index (supports ground :static label))))
     (values (fold :or (mapcar #'support-formula (atom-supports :static index pairs)))
-            (loop for (sentence) in pairs
-                  never (formula-reach (sentence-formula sentence))))))
+            (and (loop for (sentence) in pairs
+                       never (formula-reach (sentence-formula sentence)))
+                 (loop with name = (first (aref (atom-table-atoms (ground-theory-statics ground))
+                                                index))
+                       for (axiom) in (ground-theory-absolute-clauses ground)
+                       never (mentions-name-p (axiom-formula axiom) name))))))
+
+(defun mentions-name-p (form name)
+  (if (consp form)
+      (some (lambda (part) (mentions-name-p part name)) form)
+      (eq form name)))
 
 (defun add-static-demands (outline)
   "Add to OUTLINE what must be true of the timeless atoms; find out what follows of them at once."
@@ -225,23 +239,28 @@ known: if no such sentence speaks of a timepoint."
 
 ;;; The whole
 
-(defun find-loose-fluents (ground)
-  (loop for release across (ground-theory-release ground)
-        for fluent from 0
-        when release collect fluent))
+(defun set-release (outline ground)
+  "Note which fluents GROUND, the ground theory of OUTLINE or a copy with dated instances, can
+release, and which are causes of trajectories."
+  (flet ((numbers (vector)
+           (loop for entry across vector
+                 for fluent from 0
+                 when entry collect fluent)))
+    (setf (outline-release outline) (ground-theory-release ground)
+          (outline-loose-fluents outline) (numbers (ground-theory-release ground))
+          (outline-causes outline) (numbers (ground-theory-changes ground)))))
 
 (defun make-empty-outline (ground)
   (let ((range (theory-time-range (ground-theory-theory ground))))
     (make-outline :ground ground :first-time (if range (car range) 0)
-                  :influences (all-influences ground)
-                  :loose-fluents (find-loose-fluents ground)
+                  :influences (all-influences ground) :dated-p (needs-dated-p ground)
                   :state-demands-of (make-array (length (ground-theory-fluents ground))
                                                :initial-element '())
                   :event-demands-of (make-array (length (ground-theory-events ground))
                                                :initial-element '()))))
 
 (defun note-late-demands (outline demand sentence)
-  (when (> (demand-last demand) (sentence-last sentence))
+  (when (> (effective-last outline sentence) (sentence-last sentence))
     (push (cons (demand-axiom demand)
                 "it is judged when the events of its last timepoint are known")
           (outline-limits outline))))
@@ -260,6 +279,9 @@ known: if no such sentence speaks of a timepoint."
             (file-demand outline demand))))
       (add-exclusions outline)
       (add-static-demands outline)
+      (set-release outline ground)
+      (when (outline-dated-p outline)
+        (outline-dated-until outline (outline-first-time outline)))
       outline)))
 
 (defvar *outlines* (make-hash-table :test 'eq :weakness :key :synchronized t)

@@ -24,7 +24,7 @@
                    (push (cons number proposition) events))))))
       (dolist (number (step-given step)) (try number))
       (loop for number being the hash-keys of (outline-events outline) do (try number))
-      (when (dated-p outline)
+      (when (outline-dated-p outline)
         (loop for (kind number) in (gethash (step-time step)
                                             (dated-supports
                                              (outline-dated-until outline (step-time step))))
@@ -90,7 +90,7 @@
                                (list (influence-fluent influence) :ahead)
                                (influence-turn step influence happens time))))
                  (setf turns (if single (cons turn turns) (add-turn turns turn))))))
-    (when (dated-p outline)
+    (when (outline-dated-p outline)
       (dolist (effect (gethash time (dated-effects (outline-dated-until outline time))))
         (let ((happens (cdr (assoc (effect-event effect) events))))
           (when happens
@@ -112,7 +112,7 @@ TIME."
         (append
          (loop for effect in (fluent-effects (outline-ground outline) fluent kind nil)
                collect (shift-formula (effect-formula effect) time))
-         (and (dated-p outline)
+         (and (outline-dated-p outline)
               (loop for effect in (gethash time (dated-effects
                                                  (outline-dated-until outline time)))
                     when (and (= (effect-fluent effect) fluent) (eq (effect-kind effect) kind))
@@ -134,7 +134,7 @@ if it is; return (fluent . value-if-not) where that depends."
     (let* ((state (step-state step))
            (old (svref (state-values state) fluent))
            (touched (z3:disjunction (list initiated terminated)))
-           (release (svref (ground-theory-release (outline-ground (step-outline step))) fluent))
+           (release (svref (outline-release (step-outline step)) fluent))
            (loose (if (eq release :always)
                       t
                       (z3:disjunction (list released
@@ -154,7 +154,7 @@ if it is; return (fluent . value-if-not) where that depends."
 are pending."
   (let* ((outline (step-outline step))
          (time (step-time step))
-         (release (svref (ground-theory-release (outline-ground outline)) fluent)))
+         (release (svref (outline-release outline) fluent)))
     (labels ((formula-of (kind) (effects-formula outline fluent kind time))
              (released (time)
                (case release ((nil) nil) (:always t) (t (list :released fluent time))))
@@ -183,7 +183,7 @@ are pending."
 (defun set-fluents (step next turns)
   "Set the fluents of NEXT; return a list of (fluent . value-if-not-released) for those that depend."
   (let* ((outline (step-outline step))
-         (release (ground-theory-release (outline-ground outline)))
+         (release (outline-release outline))
          (values (state-values next))
          (mixed '()))
     (dolist (turn turns)
@@ -200,3 +200,175 @@ are pending."
         (unless (eq (second turn) :ahead)
           (let ((entry (set-loose-fluent step next fluent turn)))
             (when entry (push entry mixed))))))))
+
+;;; Released fluents
+
+(defun apply-changes (step next)
+  "Let trajectories set open fluents of NEXT; return a list of (fluent . proposition) for those that
+one sets only where the proposition is true."
+  (let ((end (state-time next)) (partial '()) (outline (step-outline step)))
+    (loop for (change begin going) in (due-changes step)
+          for fluent = (gradual-change-fluent change)
+          do (if (early-change-p change begin end)
+                 (let ((proposition (z3:conjunction
+                                     (list going
+                                           (evaluate step (gradual-change-guard change)
+                                                     (change-begin change begin))))))
+                   (cond ((null proposition))
+                         ((not (eq (svref (state-values next) fluent) :open))
+                          (require-condition step (gradual-change-axiom change)
+                                             (z3:implication proposition
+                                                             (svref (state-values next) fluent))))
+                         ((eq proposition t) (setf (svref (state-values next) fluent) t))
+                         (t (push (cons fluent proposition) partial))))
+                 (let ((formula (change-formula outline change begin)))
+                   (push (list* (max end (formula-end outline formula))
+                                (gradual-change-axiom change) formula)
+                         (step-pending step)))))
+    partial))
+
+(defun guarded-value (loose free otherwise)
+  (z3:disjunction (list (z3:conjunction (list loose free))
+                        (z3:conjunction (list (z3:negation loose) otherwise)))))
+
+(defun open-fluents (step next)
+  (loop for fluent in (outline-loose-fluents (step-outline step))
+        when (eq (svref (state-values next) fluent) :open)
+          collect fluent))
+
+(defun close-open-fluents (step next mixed partial)
+  "Give the open fluents of NEXT values: those that state constraints force, else variables.  MIXED
+and PARTIAL are what SET-FLUENTS and APPLY-CHANGES return."
+  (let ((values (state-values next)) (time (state-time next))
+        (demands-of (outline-state-demands-of (step-outline step))))
+    (loop for (fluent . otherwise) in mixed
+          do (setf (svref values fluent)
+                   (guarded-value (svref (state-released next) fluent)
+                                  (open-atom step :fluent fluent time) otherwise)))
+    (dolist (fluent (settle values (open-fluents step next)
+                            (lambda (fluent)
+                              (mapcar #'demand-formula (svref demands-of fluent)))
+                            :fluent))
+      (setf (svref values fluent) (open-atom step :fluent fluent time)))
+    (loop for (fluent . proposition) in partial
+          do (require-condition step nil (z3:implication proposition (svref values fluent))))))
+
+;;; Judging
+
+(defun judge-demand (step demand base)
+  (require-condition step (demand-axiom demand) (evaluate step (demand-formula demand) base)))
+
+(defun judge-pending (step next)
+  "Judge what is pending and due at NEXT; the rest stays pending."
+  (setf (state-pending next)
+        (loop for entry in (append (step-pending step) (state-pending (step-state step)))
+              for (due axiom . formula) = entry
+              if (<= due (state-time next))
+                do (require-condition step axiom (evaluate step formula 0))
+              else
+                collect entry)))
+
+(defun judge-step (step events)
+  "Judge the demands that look at more than one timepoint and end with the next state of STEP."
+  (let* ((outline (step-outline step))
+         (demands-of (outline-event-demands-of outline))
+         (single (null (rest events)))
+         (judged '())
+         (end (1+ (step-time step))))
+    (loop for (number) in events
+          do (dolist (demand (svref demands-of number))
+               (unless (and (not single) (member demand judged))
+                 (unless single (push demand judged))
+                 (judge-demand step demand (step-time step)))))
+    (dolist (demand (outline-other-demands outline))
+      (let ((base (- end (demand-last demand))))
+        (when (>= base (outline-first-time outline))
+          (judge-demand step demand base))))))
+
+(defun judge-changed-fluents (step next)
+  "Judge the demands on the state NEXT whose fluents have changed."
+  (let ((old (state-values (step-state step))) (new (state-values next))
+        (demands-of (outline-state-demands-of (step-outline step))))
+    (declare (type simple-vector old new demands-of))
+    (flet ((changed-p (fluent) (not (eq (svref old fluent) (svref new fluent)))))
+      (dotimes (fluent (length new))
+        (when (changed-p fluent)
+          (dolist (demand (svref demands-of fluent))
+            ;; once, though several of its fluents have changed
+            (when (eql fluent (find-if #'changed-p (demand-fluents demand)))
+              (judge-demand step demand (state-time next)))))))))
+
+(defun judge-dated (step time)
+  (let ((outline (step-outline step)))
+    (when (outline-dated-p outline)
+      (dolist (demand (gethash time (dated-demands (outline-dated-until outline time))))
+        (judge-demand step demand 0)))))
+
+;;; Entry points
+
+(defun initial-conditions (state)
+  "Return what must be true of the initial STATE: a list of (axiom . proposition), the theory's
+INITIALLY axioms and its sentences about single timepoints.  The axiom is an AXIOM, a list such as
+(:xor name*) or (:completion predicate), or NIL where there is no single one."
+  (let* ((outline (state-outline state))
+         (step (make-step :state state))
+         (time (state-time state))
+         (judged (make-hash-table :test 'eq)))
+    (dolist (sentence (ground-theory-initial-conditions (outline-ground outline)))
+      (require-condition step (sentence-axiom sentence)
+                         (evaluate step (sentence-formula sentence) time)))
+    (dolist (demand (outline-static-demands outline)) (judge-demand step demand time))
+    (loop for demands across (outline-state-demands-of outline)
+          do (dolist (demand demands)
+               (unless (gethash demand judged)
+                 (setf (gethash demand judged) t)
+                 (judge-demand step demand time))))
+    (dolist (demand (outline-state-demands outline)) (judge-demand step demand time))
+    (judge-dated step time)
+    (nreverse (step-conditions step))))
+
+(defun resolve-predicates (step)
+  "Return a table of the predicates with definitions at the time of STEP."
+  (let ((definitions (outline-predicates (step-outline step))))
+    (unless (zerop (hash-table-count definitions))
+      (loop for number being the hash-keys of definitions
+            do (predicate-at step number (step-time step)))
+      (step-predicates step))))
+
+(defun cause-turns (outline turns)
+  (and (outline-causes outline)
+       (loop for turn in turns
+             when (and (member (first turn) (outline-causes outline))
+                       (not (eq (second turn) :ahead))
+                       (or (second turn) (third turn)))
+               collect (list (first turn) (second turn) (third turn)))))
+
+(defun progress (state event)
+  "Return the state after EVENT, the number of an event, NIL for none, or a list of numbers,
+happened in STATE, and what must be true for that: a list of (axiom . proposition), as for
+INITIAL-CONDITIONS.  The events that the theory triggers happen, too, and no others.  Signals
+UNDETERMINED if the theory leaves something open and the state has no Z3 context."
+  (let* ((step (make-step :state state :given (if (listp event) event (list event))))
+         (outline (step-outline step))
+         (events (happening-events step))
+         (turns (event-turns step events))
+         (next (make-state :outline outline :context (state-context state)
+                           :time (1+ (state-time state)) :predecessor state
+                           :statics (state-statics state) :events events
+                           :turns (cause-turns outline turns)
+                           :values (copy-seq (state-values state))
+                           :released (if (outline-loose-fluents outline)
+                                         (copy-seq (state-released state))
+                                         (state-released state))))
+         (mixed (set-fluents step next turns)))
+    (setf (step-next step) next)
+    (close-open-fluents step next mixed (apply-changes step next))
+    (when (outline-exclusions outline) (require-exclusions step events))
+    (judge-step step events)
+    (judge-changed-fluents step next)
+    (dolist (demand (outline-state-demands outline))
+      (judge-demand step demand (state-time next)))
+    (judge-dated step (state-time next))
+    (setf (state-predicates next) (resolve-predicates step))
+    (judge-pending step next)
+    (values next (nreverse (step-conditions step)))))

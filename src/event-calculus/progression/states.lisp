@@ -127,7 +127,7 @@ Signals UNDETERMINED if there is no context."
                (:possibly (and (manual-release-p ground number)
                                (fresh-variable context outline :released number
                                                (outline-first-time outline)))))))
-         (ground-theory-release ground))))
+         (outline-release outline))))
 
 (defun initial-statics (outline context)
   (let ((statics (copy-seq (outline-statics outline))))

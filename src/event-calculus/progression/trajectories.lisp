@@ -11,7 +11,7 @@
   "Return the vector of the gradual changes of each cause, with offsets that reach from the first
 timepoint to TIME."
   (let ((ground (outline-ground outline)))
-    (if (and (outline-causes outline) (dated-p outline))
+    (if (and (outline-causes outline) (outline-dated-p outline))
         (dated-changes (outline-dated-until outline time))
         (ground-theory-changes ground))))
 

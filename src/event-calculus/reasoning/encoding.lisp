@@ -187,13 +187,31 @@ them, those of the kind STOP end them."
 
 ;;; Sentences, completion, exclusion
 
+(defun mention-atoms (encoder sentence)
+  "Let the atoms of SENTENCE be counted if a part of it that speaks of releases is known to be true or
+false: in the Discrete Event Calculus Reasoner that is known by other clauses only."
+  (let ((release (ground-theory-release (encoder-ground encoder))) (known nil))
+    (map-atoms (lambda (atom)
+                 (when (and (eq (first atom) :released)
+                            (not (eq (svref release (second atom)) :possibly)))
+                   (setf known t)))
+               (sentence-formula sentence))
+    (when known
+      (map-atoms (lambda (atom)
+                   (unless (eq (first atom) :compare)
+                     (let ((literal (formula-literal encoder atom 0)))
+                       (add-clause encoder (list literal (negate literal))))))
+                 (sentence-formula sentence)))))
+
 (defun encode-sentence (encoder sentence)
   (if (sentence-absolute sentence)
       (with-source (encoder (encoder-absolute encoder) t :sentence sentence)
+        (mention-atoms encoder sentence)
         (assert-formula encoder (sentence-formula sentence) 0))
       (with-source (encoder (find-template encoder (sentence-first sentence)
                                            (sentence-last sentence))
                             nil :sentence sentence)
+        (mention-atoms encoder sentence)
         (assert-formula encoder (sentence-formula sentence) 0))))
 
 (defun excluded-atoms (ground names)

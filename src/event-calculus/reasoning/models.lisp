@@ -134,13 +134,15 @@ found a model."
   "Evaluate BODY while FORMS, formulas or NIL for none, are asserted."
   `(call-with-question (lambda () ,@body) ,reasoner (remove nil (list ,@forms))))
 
-(defun map-models (function reasoner limit minimize)
+(defun map-models (function reasoner limit minimize &key (complete t))
   "Call FUNCTION with the values and the numbers of each model, LIMIT (or NIL) at most.  Return true
-if there are no more.  Models that differ in numbers only are one."
+if there are no more; with COMPLETE false it is not tried to find out after LIMIT models.  Models that differ in numbers only are one."
   (let ((clause-set (reasoner-clause-set reasoner))
         (variables (atom-variables reasoner))
         (count 0))
     (loop
+      (when (and (eql count limit) (not complete))
+        (return nil))
       (unless (eq (z3:check-literals clause-set '()) :sat)
         (return t))
       (when (eql count limit)
@@ -191,9 +193,9 @@ could be true instead."
 
 ;;; Queries
 
-(defun models (theory &key horizon (limit 10) where minimize)
+(defun models (theory &key horizon (limit 10) where minimize (complete t))
   "Return the list of at most LIMIT (NIL: all) models of THEORY, a theory, its name or a reasoner,
-and true if there are no more.  HORIZON is as for MAKE-REASONER; WHERE is a formula with timepoints
+and true if there are no more; with COMPLETE false it is not tried to find out after LIMIT models.  HORIZON is as for MAKE-REASONER; WHERE is a formula with timepoints
 by number that the models satisfy.  MINIMIZE is a list of predicates, happens or the theory's own:
 only one model is returned for each set of their true atoms of which no part would do
 (circumscription, where predicate completion is weaker).  Signals THEORY-ERROR, NO-HORIZON."
@@ -209,7 +211,8 @@ only one model is returned for each set of their true atoms of which no part wou
                             reasoner limit
                             (and minimize
                                  (minimized-variables reasoner
-                                                      (mapcar #'name-keyword minimize)))))))
+                                                      (mapcar #'name-keyword minimize)))
+                            :complete complete))))
         (values (nreverse models) complete)))))
 
 (defun count-models (theory &key horizon limit where)

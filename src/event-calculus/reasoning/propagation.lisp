@@ -40,7 +40,7 @@
 
 (defun occurrence-lists (clauses starts size)
   "Return two vectors: where the clauses of each literal, by its index, begin in the second."
-  (declare (type clause-vector clauses starts) (type fixnum size) (optimize speed))
+  (declare (type clause-vector clauses starts) (type (unsigned-byte 32) size) (optimize speed))
   (let ((begins (make-array (+ 2 (* 2 size)) :element-type 'fixnum :initial-element 0))
         (members (make-array (length clauses) :element-type 'fixnum :initial-element 0)))
     (loop for literal of-type (signed-byte 32) across clauses
@@ -59,7 +59,7 @@
 (defun propagate-units (clauses starts begins members truths)
   "Fix in TRUTHS what follows by unit propagation.  Return NIL if there is a contradiction."
   (declare (type clause-vector clauses starts begins members) (type truth-vector truths)
-           (optimize speed))
+           (optimize speed) (sb-ext:muffle-conditions sb-ext:compiler-note))
   (let ((queue (make-array (length truths) :element-type 'fixnum :initial-element 0))
         (head 0) (tail 0))
     (declare (type fixnum head tail))

@@ -99,13 +99,13 @@ projection, from observations postdiction.  The arguments are those of MODELS."
   (destructuring-bind (first . last) (model-horizon model)
     (loop for time from first below last collect (model-events model time))))
 
-(defun abduce (theory goal &key horizon (shortest 0) (limit 1) where seed)
+(defun abduce (theory goal &key horizon (shortest 0) (limit 1) where (minimal t) seed)
   "Return the shortest sequences of events, at most LIMIT, after which GOAL, a state formula, holds
 in THEORY: a list of lists that have a list of events for each timepoint; and their length.  The
 horizon grows from SHORTEST steps to HORIZON, the last timepoint; return NIL if that is not enough.
 Events that no axiom makes happen are free to happen, also where the theory completes happens.
-WHERE is a formula with timepoints by number that must be true, too.  Signals THEORY-ERROR,
-NO-HORIZON."
+WHERE is a formula with timepoints by number that must be true, too.  Unless MINIMAL is NIL no event
+happens without need.  Signals THEORY-ERROR, NO-HORIZON."
   (let* ((theory (if (theory-p theory) theory (find-theory theory)))
          (range (check-horizon theory horizon))
          (*horizon* range)
@@ -115,11 +115,10 @@ NO-HORIZON."
                                     :open-events (abducible-events theory ground))
       (loop for last from (+ (car range) shortest) to (cdr range)
             do (extend-horizon reasoner last)
-               (multiple-value-bind (models complete)
-                   (models reasoner :limit limit
-                                    :where (let ((goal (goal-at goal theory last)))
-                                             (if where (list :and goal where) goal)))
-                 (declare (ignore complete))
+               (let* ((goal (goal-at goal theory last))
+                      (models (models reasoner :limit limit :complete nil
+                                               :minimize (and minimal '(:happens))
+                                               :where (if where (list :and goal where) goal))))
                  (when models
                    (return (values (remove-duplicates (mapcar #'model-plan models) :test #'equal)
                                    (- last (car range))))))))))
