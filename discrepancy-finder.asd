@@ -133,9 +133,10 @@ The environment variable CXX names another compiler than g++."))
                              (:file "axioms")))
                (:module "reasoning"
                 :serial t
-                :components ((:file "clauses") (:file "encoding") (:file "numeric-fluents")
+                :components ((:file "conditions") (:file "clauses") (:file "encoding") (:file "numeric-fluents")
                              (:file "completion") (:file "propagation") (:file "reasoner") (:file "numbers")
-                             (:file "models") (:file "queries") (:file "core") (:file "why")
+                             (:file "models") (:file "queries") (:file "core")
+                             (:file "reasons") (:file "narration") (:file "why")
                              (:file "findings")))
                (:file "progression")
                (:module "e-files"
@@ -251,9 +252,16 @@ The environment variable CXX names another compiler than g++."))
   :pathname "tests/"
   :serial t
   :components ((:file "package") (:file "run") (:file "fixtures")
-               (:file "geometry") (:file "source") (:file "json") (:file "z3") (:file "z3-life")
+               (:file "geometry") (:file "source") (:file "json") (:file "z3")
+               (:file "z3-terms") (:file "z3-cores") (:file "z3-clauses") (:file "z3-smt-lib")
+               (:file "z3-life") (:file "z3-traps")
                (:file "event-calculus")
                (:file "e-files") (:file "e-files-errors") (:file "e-files-written")
+               (:module "event-calculus-suites"
+                :pathname "event-calculus/"
+                :serial t
+                :components ((:file "scenario-checks") (:file "scenarios") (:file "schemas")
+                             (:file "checklist") (:file "model-counts")))
                (:file "prolog") (:file "prolog-lazy-lists") (:file "prolog-predicates")
                (:file "designators") (:file "designators-resolved")
                (:file "transforms") (:file "stamped-poses") (:file "roslisp")

@@ -22,7 +22,7 @@
                 #:explanation-sentences #:explanation-axioms
                 #:check-theory #:finding-severity #:finding-text
                 #:event-calculus-error #:theory-error #:theory-not-found #:unknown-atom
-                #:state-constraint-not-found #:no-horizon #:e-file-error)
+                #:state-constraint-not-found #:no-horizon #:outside-horizon #:e-file-error)
   (:import-from #:discrepancy-finder.plan-language
                 #:load-plan #:plan-error #:plan-not-found #:malformed-plan-form
                 #:designator-not-understood #:not-in-top-level #:nested-top-level #:deadlock)
@@ -82,7 +82,7 @@
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
-   #:unknown-atom #:no-horizon #:e-file-error
+   #:unknown-atom #:no-horizon #:outside-horizon #:e-file-error
    #:plan-error #:plan-not-found #:malformed-plan-form #:designator-not-understood
    #:not-in-top-level #:nested-top-level #:deadlock
    #:malformed-designator #:unknown-designator-key

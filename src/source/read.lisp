@@ -12,7 +12,9 @@
   (file "" :type string :read-only t)
   (line 0 :type (integer 1) :read-only t))
 
-(setf (documentation 'source-position-file 'function)
+(setf (documentation 'make-source-position 'function)
+      "Return the source position of the line, an integer, of the file, a string."
+      (documentation 'source-position-file 'function)
       "Return the file of a source position, as the user named it."
       (documentation 'source-position-line 'function)
       "Return the line of a source position, counted from 1.")

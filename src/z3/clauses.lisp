@@ -23,11 +23,13 @@
 (defconstant +chunk+ 2000
   "So many clauses are asserted between two chances to interrupt.")
 
-(defstruct (clause-set (:constructor %make-clause-set (solver name-of)) (:copier nil))
+(defstruct (clause-set (:constructor %make-clause-set (solver name-of kept)) (:copier nil))
   "Numbered propositional variables for the clauses of a solver: made by MAKE-CLAUSE-SET, ended by
 CLOSE-CLAUSE-SET or with the context."
   (solver nil :type solver :read-only t)
   (name-of nil :type (or null function) :read-only t)
+  ;; Z3's vector that owns the literals; 0 when the clause set was closed.
+  (kept 0 :type (unsigned-byte 64))
   ;; The largest variable so far.
   (size 0 :type (unsigned-byte 32))
   ;; The addresses of the literals +N and -N at 2N and 2N + 1; 0 for those not made yet.
@@ -50,22 +52,24 @@ CLOSE-CLAUSE-SET or with the context."
   "Return a new CLAUSE-SET for SOLVER.  Its variables are made when they are first mentioned; the
 string that the function NAME-OF returns for the number of one is its name.  Without NAME-OF the
 variable N is Z3's integer symbol N, which costs less and is the same variable in all such clause
-sets of a context."
+sets of a context.  Signals Z3-ERROR."
   (check-type solver solver)
-  (%make-clause-set solver (and name-of (coerce name-of 'function))))
+  (%make-clause-set solver (and name-of (coerce name-of 'function))
+                    (calling-z3 (pointer (solver-context solver))
+                      (let ((vector (z3-mk-ast-vector pointer)))
+                        (z3-ast-vector-inc-ref pointer vector)
+                        vector))))
 
 (defun close-clause-set (clause-set)
-  "Release the literals of CLAUSE-SET; its solver keeps what was asserted.  The clause set is then
-as new."
+  "Release the literals of CLAUSE-SET; its solver keeps what was asserted.  Do nothing if that was
+done before or its context is closed.  Using its literals afterwards signals Z3-ERROR."
   (sb-sys:without-interrupts
     (let ((pointer (context-pointer (solver-context (clause-set-solver clause-set))))
-          (handles (shiftf (clause-set-handles clause-set)
-                           (make-handles 64))))
-      (setf (clause-set-size clause-set) 0)
-      (unless (zerop pointer)
-        (loop for handle across handles
-              unless (zerop handle)
-                do (z3-dec-ref pointer handle)))))
+          (kept (shiftf (clause-set-kept clause-set) 0)))
+      (setf (clause-set-handles clause-set) (make-handles 2)
+            (clause-set-size clause-set) 0)
+      (unless (or (zerop pointer) (zerop kept))
+        (z3-ast-vector-dec-ref pointer kept))))
   (values))
 
 (defmacro with-clause-set ((variable solver &rest options) &body body)
@@ -102,12 +106,15 @@ MAKE-CLAUSE-SET has them and closed at the end; return the values of BODY."
   (let ((context (solver-context (clause-set-solver clause-set)))
         (handles (clause-set-handles clause-set))
         (name-of (clause-set-name-of clause-set))
-        (boolean-sort (clause-set-boolean-sort clause-set)))
+        (boolean-sort (clause-set-boolean-sort clause-set))
+        (kept (clause-set-kept clause-set)))
+    (when (zerop kept)
+      (misuse :closed-clause-set "the clause set is closed"))
     (macrolet ((making (form)
                  `(calling-z3 (pointer context)
                     (let ((address ,form))
                       (unless (zerop address)
-                        (z3-inc-ref pointer address)
+                        (z3-ast-vector-push pointer kept address)
                         (setf (aref handles (handle-index literal)) address))))))
       (cond ((minusp literal)
              (let ((positive (literal-handle clause-set (- literal))))

@@ -9,8 +9,8 @@
          :documentation "A keyword.  Z3's own: :sort-error :index-out-of-bounds :invalid-argument
 :parser-error :no-parser :invalid-pattern :out-of-memory :file-access-error :internal-fatal
 :invalid-usage :reference-error :exception.  Of this layer: :closed-context :busy-context
-:closed-solver :other-context :released-term :no-model :no-core :division-by-zero
-:missing-function.")
+:closed-solver :other-context :released-term :no-model :no-core :closed-clause-set
+:division-by-zero :missing-function.")
    (message :initarg :message :reader z3-error-message
             :documentation "A string: what went wrong, in Z3's words or in ours."))
   (:report (lambda (condition stream)

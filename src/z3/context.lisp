@@ -15,9 +15,12 @@
 
 (in-package #:discrepancy-finder.z3)
 
-(defstruct (foreign-context (:constructor make-foreign-context (pointer)) (:copier nil))
+(defstruct (foreign-context (:constructor make-foreign-context (pointer kept)) (:copier nil))
   "A Z3 context and who is checking in it."
   (pointer 0 :type (unsigned-byte 64))
+  ;; Z3's vector of the terms that live as long as the context.  It is released before the context
+  ;; is deleted: Z3 takes milliseconds for each level of the terms that still have references then.
+  (kept 0 :type (unsigned-byte 64) :read-only t)
   ;; NIL: nobody; a thread: it is inside of a check (:STARTING just before); :INTERRUPTING: it is,
   ;; and the watcher is telling Z3 to stop; :CLOSED: the context was deleted.
   (checker nil :type t)
@@ -43,6 +46,11 @@
 (defun context-pointer (context)
   "Return the address of the Z3 context of CONTEXT, 0 if it is closed."
   (foreign-context-pointer (context-foreign context)))
+
+(declaim (inline context-kept))
+(defun context-kept (context)
+  "Return the address of the vector of the terms that live as long as CONTEXT."
+  (foreign-context-kept (context-foreign context)))
 
 (setf (documentation 'context-p 'function)
       "Return true if its argument is a CONTEXT.")
@@ -108,7 +116,9 @@ was deleted before, else NIL."
             (checker :busy)
             (t (sb-thread:with-mutex (**open-contexts-lock**)
                  (setf **open-contexts** (remove foreign **open-contexts** :count 1)))
-               (z3-del-context (shiftf (foreign-context-pointer foreign) 0))
+               (let ((pointer (shiftf (foreign-context-pointer foreign) 0)))
+                 (z3-ast-vector-dec-ref pointer (foreign-context-kept foreign))
+                 (z3-del-context pointer))
                nil)))))
 
 (defun delete-dropped-contexts ()
@@ -122,10 +132,13 @@ deleted by a later MAKE-CONTEXT.  Signals Z3-ERROR."
   (delete-dropped-contexts)
   (sb-sys:without-interrupts
     (let* ((config (z3-mk-config))
-           (pointer (foreign:with-c-float-traps (z3-mk-context-rc config)))
-           (foreign (make-foreign-context pointer)))
-      (z3-del-config config)
-      (z3-set-error-handler pointer 0)
+           (pointer (foreign:with-c-float-traps
+                      (prog1 (z3-mk-context-rc config)
+                        (z3-del-config config))))
+           (kept (progn (z3-set-error-handler pointer 0)
+                        (z3-mk-ast-vector pointer)))
+           (foreign (make-foreign-context pointer kept)))
+      (z3-ast-vector-inc-ref pointer kept)
       (let ((context (%make-context foreign)))
         (sb-thread:with-mutex (**open-contexts-lock**)
           (push foreign **open-contexts**))

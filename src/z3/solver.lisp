@@ -91,8 +91,8 @@ given, let it start from that."
 or NIL for Z3's default engine; QF_FD, propositions and finite domains, is the one measured best for
 propositions, and cannot tell where numbers occur.  A check ends after TIMEOUT seconds of wall-clock
 time (a positive real, or NIL for no limit).  The search starts from SEED, a natural number, or from
-Z3's own if it is NIL; the same calls with the same seed give the same answers and models.  Signals
-Z3-ERROR, e.g. for an unknown LOGIC."
+Z3's own if it is NIL; the same calls in a new context with the same seed give the same answers and
+models.  Signals Z3-ERROR, e.g. for an unknown LOGIC."
   (check-type logic (or null string))
   (check-type timeout (or null (real (0))))
   (check-type seed (or null (unsigned-byte 32)))

@@ -95,10 +95,11 @@ in the Z3 context at POINTER."
            ;; A refused call gives 0; reading the error code is left to CALLING-Z3, since the
            ;; next call would reset it.
            (unless (zerop ,address)
-             (z3-inc-ref ,pointer ,address)
              (let ((,term (%make-term ,owner ,address ,sort-of-term ,operand)))
-               (unless (eq (context-trail ,owner) :kept)
-                 (push ,term (context-trail ,owner)))
+               (cond ((eq (context-trail ,owner) :kept)
+                      (z3-ast-vector-push ,pointer (context-kept ,owner) ,address))
+                     (t (z3-inc-ref ,pointer ,address)
+                        (push ,term (context-trail ,owner))))
                ,term)))))))
 
 (defun release-terms (context terms)

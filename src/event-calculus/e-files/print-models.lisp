@@ -34,11 +34,29 @@ the first timepoint."
                     stream))
     now))
 
+(defun timepoint-numbers (model time)
+  "Return the list of (numeric-fluent . number) of MODEL at TIME."
+  (loop for (name . sorts) in (theory-numeric-fluents (model-theory model))
+        nconc (loop for fluent in (ground-terms (model-theory model) name sorts)
+                    for number = (model-number model fluent time)
+                    when number collect (cons fluent number))))
+
+(defun print-values (model names time stream)
+  "Print the numbers of MODEL at TIME that are not those of the timepoint before."
+  (let ((before (if (= time (car (model-horizon model)))
+                    '()
+                    (timepoint-numbers model (1- time)))))
+    (sorted-lines (loop for (fluent . number) in (timepoint-numbers model time)
+                        unless (equal number (cdr (assoc fluent before :test #'equal)))
+                          collect (format nil "~a=~a." (e-atom-text names fluent) number))
+                  stream)))
+
 (defun print-e-model (model names stream)
   (destructuring-bind (first . last) (model-horizon model)
     (loop with before = t
           for time from first to last
-          do (setf before (print-timepoint model names time before stream))))
+          do (setf before (print-timepoint model names time before stream))
+             (print-values model names time stream)))
   (format stream "P~%")
   (sorted-lines (loop for literal in (model-literals model)
                       collect (format nil "~a." (e-atom-text names literal)))

@@ -51,12 +51,12 @@ time variables, and what is added: an integer, or NIL if that depends on other v
                    ((and (eq operator :+) (time-p right) (distance-p left))
                     (values right (and (integerp left) left)))))))))
 
-(defun relative-form-p (theory form)
+(defun relative-form-p (theory form &key step)
   "Return true, the time variable and the distances of the first and the last time from it if FORM is
 about one arbitrary timepoint: it has one free time variable, which only stands in times of atoms.  The times inside of quantifiers
-must be among those outside, for there only the quantifier's instance is dropped, and not FORM's,
+must be among those outside, with STEP also at the next timepoint, for there only the quantifier's instance is dropped, and not FORM's,
 where they are beyond the horizon."
-  (let ((variable nil) (outer (list 0 0)) (inner (list 0 0)))
+  (let ((variable nil) (outer (list 0 (if step 1 0))) (inner (list 0 0)))
     (labels ((fail () (return-from relative-form-p nil))
              (check-time-term (term bound duration)
                (multiple-value-bind (found distance) (time-of-term theory term)
@@ -70,9 +70,7 @@ where they are beyond the horizon."
                      (setf (first span) (min (first span) distance)
                            (second span) (max (second span) (+ distance duration)))))))
              (check-arguments (form bound)
-               (loop with duration = (if (member (first form) '(:happens :initiates :terminates
-                                                                :releases :assigns))
-                                         1 0)
+               (loop with duration = (if (eq (first form) :happens) 1 0)
                      for term in (rest form)
                      for sort in (argument-sorts theory form)
                      do (if (eq sort :time)
@@ -111,7 +109,7 @@ where they are beyond the horizon."
   "Return true if the effect axiom or axiom of a trajectory with CONDITION and HEAD is about one
 arbitrary timepoint, the time of its head, and the next."
   (multiple-value-bind (relative variable span)
-      (relative-form-p theory (list :implies condition head))
+      (relative-form-p theory (list :implies condition head) :step t)
     (and relative
          (eq variable (if (eq kind :effect) (first (last head)) (third head)))
          (>= (first span) 0) (<= (second span) 1))))
@@ -160,7 +158,8 @@ called with each environment.  TIME-VARIABLE, if any, is bound to 0."
   (let* ((theory (ground-theory-theory ground))
          (time-variable (and *relative*
                              (nth-value 1 (relative-form-p theory
-                                                           (list :implies condition head)))))
+                                                           (list :implies condition head)
+                                                           :step t))))
          (variables (remove time-variable (free-variables (list :implies condition head)))))
     (call-with-instances
      ground head variables time-variable (and (consp condition) (conditions-of condition))
@@ -199,7 +198,8 @@ called with each environment.  TIME-VARIABLE, if any, is bound to 0."
   (let* ((theory (ground-theory-theory ground))
          (time-variable (and *relative*
                              (nth-value 1 (relative-form-p theory
-                                                           (list :implies condition head)))))
+                                                           (list :implies condition head)
+                                                           :step t))))
          (variables (remove time-variable (free-variables (list :implies condition head)))))
     (call-with-instances
      ground head variables time-variable (and (consp condition) (conditions-of condition))
@@ -324,10 +324,51 @@ ABSOLUTE-EFFECTS is true if an effect axiom is not."
 (defparameter *clause-order* '(:value :effect :trajectory :initially :sentence)
   "The order in which clauses are made ground, so that each finds what it refers to.")
 
+(defun mentioned-effects (form)
+  "Return the effect predicates whose completed definitions FORM refers to."
+  (when (consp form)
+    (let ((own (case (first form)
+                 ((:initiates :terminates :releases) (list (first form)))
+                 ((:stopped-in :clipped) '(:terminates))
+                 ((:started-in :declipped) '(:initiates)))))
+      (reduce #'union (mapcar #'mentioned-effects (rest form)) :initial-value own))))
+
+(defun order-effects (theory clauses)
+  "Return CLAUSES, a list of (axiom kind condition head), so that the effects to which a condition
+refers come before it.  Signals THEORY-ERROR if they depend on each other."
+  (let ((done '()) (open '()))
+    (labels ((place (clause)
+               (unless (member clause done :test #'eq)
+                 (destructuring-bind (axiom kind condition head) clause
+                   (when (member clause open :test #'eq)
+                     (theory-problem theory axiom condition
+                                     "the effects to which the condition refers depend on this ~
+                                      axiom"))
+                   (let ((effects (and (eq kind :effect) (mentioned-effects condition))))
+                     (when effects
+                       (push clause open)
+                       (dolist (other clauses)
+                         (when (and (eq (second other) :effect)
+                                    (member (first (fourth other)) effects)
+                                    (not (eq other clause)))
+                           (place other)))
+                       (when (member (first head) effects)
+                         (theory-problem theory axiom condition
+                                         "the condition refers to effects of the kind that the ~
+                                          axiom states"))
+                       (pop open))))
+                 (push clause done))))
+      (if (some (lambda (clause)
+                  (and (eq (second clause) :effect) (mentioned-effects (third clause))))
+                clauses)
+          (progn (mapc #'place clauses) (nreverse done))
+          clauses))))
+
 (defun add-clauses (ground clauses)
   "Make CLAUSES, a list of (axiom kind condition head), ground; return the sentences and the initial
 conditions among them."
-  (let ((sentences '()) (initial '()))
+  (let ((sentences '()) (initial '())
+        (clauses (order-effects (ground-theory-theory ground) clauses)))
     (dolist (wanted *clause-order* (values (nreverse sentences) (nreverse initial)))
       (loop for (axiom kind condition head) in clauses
             when (eq kind wanted)

@@ -47,10 +47,22 @@
                    (and (eq (effect-kind effect) kind) (= (effect-fluent effect) fluent)))
                  (svref (ground-theory-effects ground) event)))
 
+(defun within-horizon-p (formula time)
+  "Return true if the ground FORMULA about TIME speaks of no timepoint after the horizon."
+  (map-atoms (lambda (atom)
+               (when (and (not *relative*) *horizon* (integerp (third atom))
+                          (> (+ time (third atom) (if (eq (first atom) :event) 1 0))
+                             (cdr *horizon*)))
+                 (return-from within-horizon-p nil)))
+             formula)
+  t)
+
 (defun effect-proposition (ground kind event fluent time)
   "Return the ground formula that EVENT has an effect of KIND on FLUENT at TIME."
   (fold :or (loop for effect in (effects-of ground kind event fluent)
-                  when (or (null (effect-time effect)) (eql (effect-time effect) time))
+                  when (if (effect-time effect)
+                           (eql (effect-time effect) time)
+                           (within-horizon-p (effect-guard effect) time))
                     collect (if (effect-time effect)
                                 (effect-guard effect)
                                 (shift-formula (effect-guard effect) time)))))
@@ -78,7 +90,7 @@ FIRST to LAST."
   (let ((ground (compilation-ground compilation))
         (event (compile-event compilation (second form)))
         (fluent (compile-fluent compilation (third form)))
-        (time (compile-time compilation (fourth form) :event t))
+        (time (compile-time compilation (fourth form)))
         (kind (first form)))
     (declare (type function event fluent time))
     (environment-lambda (environment)

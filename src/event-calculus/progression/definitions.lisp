@@ -14,10 +14,11 @@
 
 (defstruct (support (:copier nil))
   "What makes an atom true: FORMULA.  FIRST and LAST are the distances that the sentence behind it
-spans."
+spans.  AHEAD-P is true if they must all be there for it, and are not yet at the time of the atom."
   (formula t :type (or boolean cons) :read-only t)
   (first 0 :type fixnum :read-only t)
-  (last 0 :type fixnum :read-only t))
+  (last 0 :type fixnum :read-only t)
+  (ahead-p nil :type boolean :read-only t))
 
 (defstruct (definition (:copier nil))
   "An atom is true just if in each of ALTERNATIVES, lists of supports, one of a completion, some
@@ -60,6 +61,17 @@ of the timepoint."
   (let ((reach (formula-reach formula)))
     (and reach (> reach 0))))
 
+(defun span-end (formula)
+  "Return the last distance that the ground FORMULA speaks of, 0 at least; an event at t ends at
+t + 1."
+  (let ((end 0))
+    (map-atoms (lambda (atom)
+                 (case (first atom)
+                   (:event (setf end (max end (1+ (third atom)))))
+                   ((:fluent :released :predicate) (setf end (max end (third atom))))))
+               formula)
+    end))
+
 (defun plain-parts-first (formula)
   "Return the ground FORMULA with the parts of conjunctions and disjunctions ordered: those without
 events and predicates first, since they are known before these."
@@ -87,9 +99,16 @@ events and predicates first, since they are known before these."
                                               nil))
                        (- distance))
         when formula
-          collect (make-support :formula (plain-parts-first formula)
-                                :first (- (sentence-first sentence) distance)
-                                :last (- (sentence-last sentence) distance))))
+          collect (new-support formula sentence distance (if (eq kind :event) 1 0))))
+
+(defun new-support (formula sentence distance duration)
+  "Return the support that FORMULA is, by SENTENCE, for an atom at DISTANCE that lasts for DURATION."
+  (let ((last (- (sentence-last sentence) distance)))
+    (make-support :formula (plain-parts-first formula)
+                  :first (- (sentence-first sentence) distance)
+                  :last last
+                  :ahead-p (or (looks-ahead-p formula)
+                               (> last (max duration (span-end formula)))))))
 
 (defun completion-labels (theory predicate)
   "Return the list of the labels under which THEORY completes PREDICATE."
@@ -99,7 +118,7 @@ events and predicates first, since they are known before these."
 (defun supporting-p (axiom label)
   "Return true if a completion with LABEL counts the sentences of AXIOM."
   (let ((own (and (axiom-p axiom) (axiom-label axiom))))
-    (if label (eq own label) (not (eq own :facts)))))
+    (if label (eq own label) (not (eq own +facts+)))))
 
 (defun event-labels (theory)
   "Return the list of the labels under which events are completed in progression."
@@ -108,9 +127,7 @@ events and predicates first, since they are known before these."
 (defun new-definition (alternatives)
   (make-definition :alternatives alternatives
                    :ahead-p (loop for supports in alternatives
-                                    thereis (loop for support in supports
-                                                    thereis (looks-ahead-p
-                                                             (support-formula support))))))
+                                    thereis (some #'support-ahead-p supports))))
 
 (defun relative-pairs (table index)
   (remove-if #'sentence-absolute (gethash index table) :key #'car))
@@ -162,11 +179,8 @@ definition, and the list of these sentences.  Predicates that are COMPLETED-P ha
                 (new-definition
                  (list (let ((distance (third atom)))
                          (and formula
-                              (list (make-support
-                                     :formula (plain-parts-first (shift-formula formula
-                                                                                (- distance)))
-                                     :first (- (sentence-first sentence) distance)
-                                     :last (- (sentence-last sentence) distance)))))))))))))
+                              (list (new-support (shift-formula formula (- distance))
+                                                 sentence distance 0))))))))))))
 
 (defun predicate-labels (ground index)
   "Return the labels under which the predicate with the number INDEX is completed."

@@ -63,9 +63,9 @@ without supports that begin before the first timepoint."
                           supports))))
     (let ((dated (dated-alternatives outline kind number time))
           (usual (and definition (mapcar #'in-time (definition-alternatives definition)))))
-      (cond ((null dated) usual)
-            ((null usual) dated)
-            (t (mapcar #'append usual dated))))))
+      (cond ((and usual dated) (mapcar #'append usual dated))
+            ;; without any support it is false
+            (t (or usual dated (list '())))))))
 
 (defun alternatives-formula (alternatives time)
   "Return the ground formula, with timepoints, of the ALTERNATIVES of an atom at TIME."
@@ -80,7 +80,7 @@ are known."
   (loop for supports in alternatives
           thereis (loop for support in supports
                         for formula = (support-formula support)
-                          thereis (or (looks-ahead-p formula)
+                          thereis (or (support-ahead-p support)
                                       (and (> time now)
                                            (depends-on-events-p formula
                                                                 (outline-predicates outline)))))))
@@ -97,7 +97,12 @@ are known."
 (defun leave-pending (step kind number time alternatives)
   "Return a variable for an atom whose definition looks ahead; that they are equivalent is pending."
   (let ((formula (fold-iff (list kind number time) (alternatives-formula alternatives time))))
-    (push (list* (formula-end (step-outline step) formula) nil formula) (step-pending step))
+    (push (list* (max (formula-end (step-outline step) formula)
+                      (+ time (loop for supports in alternatives
+                                    maximize (reduce #'max supports :key #'support-last
+                                                                    :initial-value 0))))
+                 nil formula)
+          (step-pending step))
     (open-atom step kind number time)))
 
 (defun resolve (step table kind number time definition)

@@ -42,11 +42,11 @@
       (:predicate (numbers (atom-table-atoms (ground-theory-predicates ground))))
       (:static (numbers (atom-table-atoms (ground-theory-statics ground)))))))
 
-(defun supports (ground kind label)
+(defun supports (ground kind label &optional (sentences (ground-theory-sentences ground)))
   "Return a table from the number of an atom of KIND to the list of (sentence . distance) in which it
-occurs positively, in the sentences whose axiom has LABEL."
+occurs positively, in those of SENTENCES whose axiom has LABEL."
   (let ((table (make-hash-table)))
-    (dolist (sentence (ground-theory-sentences ground) table)
+    (dolist (sentence sentences table)
       (let ((own (let ((axiom (sentence-axiom sentence)))
                    (and (axiom-p axiom) (axiom-label axiom)))))
         (when (if label (eq own label) (not (eq own +facts+)))
@@ -108,13 +108,19 @@ occurs positively, in the sentences whose axiom has LABEL."
                                (assoc predicate (theory-predicates
                                                  (ground-theory-theory ground)))))
          (duration (if (eq kind :event) 1 0))
-         (table (supports ground kind label)))
+         (table (supports ground kind label))
+         (initial (supports ground kind label (ground-theory-initial-conditions ground))))
     (dolist (number (completed-atoms ground predicate kind open-events))
       (let ((supports (gethash number table)))
         (cond ((eq kind :static)
                (with-source (encoder (encoder-absolute encoder) t :completion (list kind number))
                  (encode-completion encoder (atom-literal encoder :static number 0)
-                                    (timeless-supports supports (encoder-horizon encoder)))))
+                                    (append (timeless-supports supports
+                                                               (encoder-horizon encoder))
+                                            (loop for (sentence) in (gethash number initial)
+                                                  collect (cons sentence
+                                                                (car (encoder-horizon
+                                                                      encoder))))))))
               ((every (lambda (support) (regular-support-p support duration)) supports)
                (with-source (encoder (find-template encoder 0 duration) nil
                                      :completion (list kind number))

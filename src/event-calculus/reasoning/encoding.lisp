@@ -27,6 +27,15 @@
   "Return by how much the guard of EFFECT is to be moved to be about TIME, 0 in a template."
   (if (effect-time effect) 0 time))
 
+(defun mention-atoms (encoder formula shift)
+  "Let the atoms of FORMULA, moved by SHIFT timepoints, be counted although it is known to be true or
+says nothing: in the Discrete Event Calculus Reasoner other clauses say so."
+  (map-atoms (lambda (atom)
+               (unless (eq (first atom) :compare)
+                 (let ((literal (formula-literal encoder atom shift)))
+                   (add-clause encoder (list literal (negate literal))))))
+             formula))
+
 (defun assert-effect (encoder effect time)
   "DEC9, DEC10, DEC11 and DEC12 for EFFECT at TIME."
   (let* ((event (negate (atom-literal encoder :event (effect-event effect) time)))
@@ -36,6 +45,8 @@
          (shift (effect-shift effect time)))
     (flet ((assert-head (literal)
              (assert-formula encoder guard shift (list event literal))))
+      (when (and (eq (effect-kind effect) :releases) (eq released t))
+        (mention-atoms encoder (dated-effect-formula effect time) 0))
       (ecase (effect-kind effect)
         (:initiates (assert-head fluent) (assert-head (negate released)))
         (:terminates (assert-head (negate fluent)) (assert-head (negate released)))
@@ -116,7 +127,10 @@ them, those of the kind STOP end them."
                     changes
                     (remove nil changes :key #'gradual-change-time)))
          (horizon (encoder-horizon encoder)))
-    (encode-relative-trajectories encoder cause (set-difference changes dated) start stop)
+    (let ((relative (set-difference changes dated)))
+      ;; Where nothing begins a trajectory its instances vanish, with their atoms.
+      (when (and relative (fluent-effects ground cause start nil))
+        (encode-relative-trajectories encoder cause relative start stop)))
     (dolist (change dated)
       (if (gradual-change-time change)
           (encode-dated-trajectory encoder change (gradual-change-time change) start stop)
@@ -131,15 +145,16 @@ them, those of the kind STOP end them."
          (longest (reduce #'max changes :key #'gradual-change-offset :initial-value 0))
          (begun nil)
          (stopped (make-array (1+ longest) :initial-element nil)))
-    (when changes
-      (with-source (encoder (find-template encoder 0 1) nil :begin cause)
-        (setf begun (new-code encoder))
-        (dolist (effect begin)
-          (assert-formula encoder (negated (effect-formula effect)) 0 (list begun)))
-        ;; Not needed, but where no event can begin the trajectory its clauses are dropped early.
-        (add-clause encoder (cons (- begun)
-                                  (loop for effect in begin
-                                        collect (effect-literal encoder effect 0))))))
+    (setf (encoder-once encoder) nil
+          begun (new-code encoder))
+    (dolist (effect begin)
+      (with-source (encoder (find-template encoder 0 1) nil :begin effect)
+        (assert-formula encoder (negated (effect-formula effect)) 0 (list begun))))
+    ;; Not needed, but where no event can begin the trajectory its clauses are dropped early.
+    (unless (encoder-tracked encoder)
+      (with-source (encoder (find-template encoder 0 1) nil :begin nil)
+        (add-clause encoder (cons (- begun) (loop for effect in begin
+                                                  collect (effect-literal encoder effect 0))))))
     (loop for offset from 2 to longest
           do (with-source (encoder (find-template encoder 0 offset) nil :stop cause)
                (setf (svref stopped offset)
@@ -174,7 +189,8 @@ them, those of the kind STOP end them."
     (flet ((happening (kind time)
              (fold :or (loop for effect in (fluent-effects ground cause kind time)
                              collect (dated-effect-formula effect time)))))
-      (when (<= end (cdr (encoder-horizon encoder)))
+      (when (and (<= end (cdr (encoder-horizon encoder)))
+                 (fluent-effects ground cause start time))
         (with-source (encoder (encoder-absolute encoder) t :trajectory change)
           (assert-formula encoder
                           (fold :or (list* (negated (happening start time))
@@ -187,31 +203,27 @@ them, those of the kind STOP end them."
 
 ;;; Sentences, completion, exclusion
 
-(defun mention-atoms (encoder sentence)
-  "Let the atoms of SENTENCE be counted if a part of it that speaks of releases is known to be true or
-false: in the Discrete Event Calculus Reasoner that is known by other clauses only."
-  (let ((release (ground-theory-release (encoder-ground encoder))) (known nil))
-    (map-atoms (lambda (atom)
-                 (when (and (eq (first atom) :released)
-                            (not (eq (svref release (second atom)) :possibly)))
-                   (setf known t)))
-               (sentence-formula sentence))
-    (when known
-      (map-atoms (lambda (atom)
-                   (unless (eq (first atom) :compare)
-                     (let ((literal (formula-literal encoder atom 0)))
-                       (add-clause encoder (list literal (negate literal))))))
-                 (sentence-formula sentence)))))
+(defun known-release-p (encoder formula)
+  "Return true if a part of FORMULA speaks of a release that is known to be, or not to be."
+  (map-atoms (lambda (atom)
+               (when (and (eq (first atom) :released)
+                          (not (eq (svref (ground-theory-release (encoder-ground encoder))
+                                          (second atom))
+                                   :possibly)))
+                 (return-from known-release-p t)))
+             formula))
 
 (defun encode-sentence (encoder sentence)
   (if (sentence-absolute sentence)
       (with-source (encoder (encoder-absolute encoder) t :sentence sentence)
-        (mention-atoms encoder sentence)
+        (when (known-release-p encoder (sentence-formula sentence))
+          (mention-atoms encoder (sentence-formula sentence) 0))
         (assert-formula encoder (sentence-formula sentence) 0))
       (with-source (encoder (find-template encoder (sentence-first sentence)
                                            (sentence-last sentence))
                             nil :sentence sentence)
-        (mention-atoms encoder sentence)
+        (when (known-release-p encoder (sentence-formula sentence))
+          (mention-atoms encoder (sentence-formula sentence) 0))
         (assert-formula encoder (sentence-formula sentence) 0))))
 
 (defun excluded-atoms (ground names)

@@ -62,8 +62,8 @@
                     time)))
 
 (defun model-number (model fluent time)
-  "Return the number that the numeric FLUENT, a list of symbols, has in MODEL at TIME, a rational, or
-NIL if the theory leaves it open.  Signals UNKNOWN-ATOM, NO-HORIZON."
+  "Return the number that the numeric FLUENT, a list of symbols, has in MODEL at TIME: a rational, a
+Z3:ALGEBRAIC-NUMBER, or NIL if no axiom speaks of it.  Other models may have others.  Signals UNKNOWN-ATOM, NO-HORIZON."
   (check-model-time model time)
   (let ((ground (encoder-ground (model-encoder model))))
     (values (gethash (cons (or (gethash (atom-keywords fluent)
@@ -160,6 +160,16 @@ if there are no more; with COMPLETE false it is not tried to find out after LIMI
 
 ;;; Minimal models
 
+(defun minimized-predicates (theory minimize)
+  "Return MINIMIZE, a predicate or a list of them, as keywords.  Signals THEORY-ERROR."
+  (loop for name in (if (listp minimize) minimize (list minimize))
+        for keyword = (name-keyword name)
+        unless (or (member keyword '(:happens :holds-at :released-at))
+                   (assoc keyword (theory-predicates theory)))
+          do (theory-problem theory nil nil "there is no predicate ~a to minimize"
+                             (name-text name))
+        collect keyword))
+
 (defun minimized-variables (reasoner predicates)
   "Return the list of the variables of the atoms of PREDICATES."
   (remove-if-not (lambda (variable)
@@ -199,6 +209,7 @@ and true if there are no more; with COMPLETE false it is not tried to find out a
 by number that the models satisfy.  MINIMIZE is a list of predicates, happens or the theory's own:
 only one model is returned for each set of their true atoms of which no part would do
 (circumscription, where predicate completion is weaker).  Signals THEORY-ERROR, NO-HORIZON."
+  (check-type limit (or null unsigned-byte))
   (let ((models '()))
     (with-reasoner-of (reasoner theory :horizon horizon)
       (let ((complete
@@ -210,14 +221,16 @@ only one model is returned for each set of their true atoms of which no part wou
                                     models))
                             reasoner limit
                             (and minimize
-                                 (minimized-variables reasoner
-                                                      (mapcar #'name-keyword minimize)))
+                                 (minimized-variables
+                                  reasoner
+                                  (minimized-predicates (reasoner-theory reasoner) minimize)))
                             :complete complete))))
         (values (nreverse models) complete)))))
 
 (defun count-models (theory &key horizon limit where)
   "Return the number of models of THEORY, LIMIT at most, and true if there are no more.  The
 arguments are those of MODELS.  Signals THEORY-ERROR, NO-HORIZON."
+  (check-type limit (or null unsigned-byte))
   (let ((count 0))
     (with-reasoner-of (reasoner theory :horizon horizon)
       (let ((complete (with-question (reasoner where)

@@ -29,14 +29,26 @@
                                               time))
                              (z3:real-sort (reasoner-context reasoner))))))))
 
+(defun divisors (term)
+  "Return the divisors in the ground TERM that are no numbers."
+  (when (consp term)
+    (append (and (eq (first term) :/) (consp (third term)) (list (third term)))
+            (unless (eq (first term) :value)
+              (mapcan #'divisors (copy-list (rest term)))))))
+
 (defun comparison-proposition (reasoner comparison time)
-  "Return the proposition of COMPARISON, (operator term term), relative to TIME."
+  "Return the proposition of COMPARISON, (operator term term), relative to TIME.  Where something is
+divided by 0 it is false."
   (destructuring-bind (operator left right) comparison
-    (let ((left (number-term reasoner left time)) (right (number-term reasoner right time)))
-      (ecase operator
-        (:= (z3:equals left right))
-        (:< (z3:less left right))
-        (:<= (z3:less-or-equal left right))))))
+    (flet ((convert (term) (number-term reasoner term time)))
+      (let ((p (convert left)) (q (convert right)))
+        (z3:conjunction
+         (cons (ecase operator
+                 (:= (z3:equals p q))
+                 (:< (z3:less p q))
+                 (:<= (z3:less-or-equal p q)))
+               (loop for divisor in (append (divisors left) (divisors right))
+                     collect (z3:negation (z3:equals (convert divisor) 0)))))))))
 
 (defun assert-comparisons (reasoner template time used)
   "Tie the comparisons of TEMPLATE at TIME to their atoms, where clauses USED have them."

@@ -47,5 +47,5 @@
           (loop for time from (car horizon) below (cdr horizon)
                 do (encode-numeric-fluent encoder numeric (encoder-absolute encoder) time t))
           (encode-numeric-fluent encoder numeric (find-template encoder 0 1) 0 nil))
-      (with-source (encoder (encoder-initial encoder) t :not-released numeric)
+      (with-source (encoder (encoder-initial encoder) t :number-not-released numeric)
         (add-clause encoder (list (- (atom-literal encoder :number-released numeric 0))))))))

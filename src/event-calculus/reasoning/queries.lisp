@@ -99,6 +99,17 @@ projection, from observations postdiction.  The arguments are those of MODELS."
   (destructuring-bind (first . last) (model-horizon model)
     (loop for time from first below last collect (model-events model time))))
 
+(defun steps-of-question (theory form range)
+  "Return how many steps of the horizon RANGE the formula FORM, or NIL, speaks of."
+  (let ((last (car range)))
+    (when form
+      (let ((checked (parse-formula form theory :kind :query :blame "the question")))
+        (check-question-times theory checked range)
+        (map-question-times (lambda (time event)
+                              (setf last (max last (if event (1+ time) time))))
+                            theory checked)))
+    (- last (car range))))
+
 (defun abduce (theory goal &key horizon (shortest 0) (limit 1) where (minimal t) seed)
   "Return the shortest sequences of events, at most LIMIT, after which GOAL, a state formula, holds
 in THEORY: a list of lists that have a list of events for each timepoint; and their length.  The
@@ -108,6 +119,7 @@ WHERE is a formula with timepoints by number that must be true, too.  Unless MIN
 happens without need.  Signals THEORY-ERROR, NO-HORIZON."
   (let* ((theory (if (theory-p theory) theory (find-theory theory)))
          (range (check-horizon theory horizon))
+         (shortest (max shortest (steps-of-question theory where range)))
          (*horizon* range)
          (ground (ground theory)))
     (with-reasoner (reasoner theory :horizon (list (car range) (+ (car range) shortest))

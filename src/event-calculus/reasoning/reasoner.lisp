@@ -191,6 +191,14 @@ FROM, NIL for none so far, to that of HORIZON."
       (add-to-solver reasoner nil (reasoner-horizon reasoner))
       reasoner)))
 
+(defun known-events (theory names)
+  "Return NAMES as keywords.  Signals UNKNOWN-ATOM if one is no event of THEORY."
+  (loop for name in names
+        for keyword = (name-keyword name)
+        unless (assoc keyword (theory-events theory))
+          do (error 'unknown-atom :atom (list keyword) :kind "event" :theory (theory-name theory))
+        collect keyword))
+
 (defun make-reasoner (theory &key horizon open-events tracked named seed timeout
                                (logic nil logic-p) ground assumptions)
   "Return a REASONER for THEORY, a theory or its name.  HORIZON is the last timepoint, or a list of
@@ -200,8 +208,11 @@ engine: by default QF_FD, or Z3's default engine where there are numeric fluents
 of the atoms, which its texts show then.  ASSUMPTIONS are formulas with timepoints by number that are
 true, too.  Signals THEORY-NOT-FOUND,
 NO-HORIZON, THEORY-ERROR."
+  (check-type seed (or null unsigned-byte))
+  (check-type timeout (or null (real (0))))
   (let* ((theory (if (theory-p theory) theory (find-theory theory)))
          (horizon (check-horizon theory horizon))
+         (open-events (known-events theory open-events))
          (*horizon* horizon)
          (ground (or ground (ground theory)))
          (context (z3:make-context))
@@ -246,18 +257,29 @@ no axiom compares timepoints or names them by number; else it is made anew."
          (old (cdr horizon))
          (new (cons (car horizon) last)))
     (check-type last integer)
-    (cond ((= last old))
-          ((and (> last old) (incremental-p reasoner))
-           (setf (reasoner-horizon reasoner) new)
-           (add-to-solver reasoner old new))
-          (t (check-horizon (reasoner-theory reasoner) new)
-             (setf (reasoner-horizon reasoner) new)
-             (build reasoner)))
+    (check-horizon (reasoner-theory reasoner) new)
+    (unless (= last old)
+      (let ((incremental (and (> last old) (reasoner-encoder reasoner) (incremental-p reasoner)))
+            (done nil))
+        (unwind-protect
+             (progn (setf (reasoner-horizon reasoner) new)
+                    (if incremental
+                        (add-to-solver reasoner old new)
+                        (build reasoner))
+                    (setf done t))
+          ;; Left half-way, the reasoner is encoded anew by the next question.
+          (unless done
+            (setf (reasoner-encoder reasoner) nil)))))
     reasoner))
 
 (defun call-with-reasoner (function theory options)
   (if (reasoner-p theory)
-      (funcall (the function function) theory)
+      (let ((horizon (getf options :horizon)))
+        (when horizon
+          (extend-horizon theory (cdr (check-horizon (reasoner-theory theory) horizon))))
+        (unless (reasoner-encoder theory)
+          (build theory))
+        (funcall (the function function) theory))
       (let ((reasoner (apply #'make-reasoner theory options)))
         (unwind-protect (funcall (the function function) reasoner)
           (close-reasoner reasoner)))))
@@ -335,12 +357,35 @@ if it is an auxiliary one."
                               code)))))))
       (convert formula))))
 
+(defun map-question-times (function theory form)
+  "Call FUNCTION with each timepoint that FORM, a checked question, gives by number, and the event
+that is to happen then, or NIL."
+  (labels ((look (form)
+             (when (consp form)
+               (loop for term in (rest form)
+                     for sort in (or (argument-sorts theory form) (mapcar (constantly nil)
+                                                                          (rest form)))
+                     do (if (and (eq sort :time) (integerp term))
+                            (funcall (the function function) term
+                                     (and (eq (first form) :happens) (second form)))
+                            (look term))))))
+    (look form)))
+
+(defun check-question-times (theory form horizon)
+  "Signal OUTSIDE-HORIZON if FORM, a checked question, gives a timepoint outside of HORIZON."
+  (map-question-times (lambda (time event)
+                        (unless (<= (car horizon) time (if event (1- (cdr horizon)) (cdr horizon)))
+                          (error 'outside-horizon :time time :horizon horizon :event event)))
+                      theory form))
+
 (defun question-proposition (reasoner form &key (blame "the question"))
   "Return the proposition of FORM, a formula with timepoints by number.  Signals THEORY-ERROR."
   (let* ((theory (reasoner-theory reasoner))
          (ground (encoder-ground (reasoner-encoder reasoner)))
-         (formula (ground-formula ground (parse-formula form theory :kind :query :blame blame)
-                                  :horizon (reasoner-horizon reasoner)))
+         (checked (parse-formula form theory :kind :query :blame blame))
+         (formula (progn
+                    (check-question-times theory checked (reasoner-horizon reasoner))
+                    (ground-formula ground checked :horizon (reasoner-horizon reasoner))))
          (encoder (reasoner-encoder reasoner)))
     ;; Atoms of predicates that no axiom mentions have no variables yet.
     (unless (and (= (encoder-predicate-count encoder)
