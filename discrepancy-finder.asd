@@ -134,11 +134,16 @@ The environment variable CXX names another compiler than g++."))
                (:module "reasoning"
                 :serial t
                 :components ((:file "conditions") (:file "clauses") (:file "encoding") (:file "numeric-fluents")
-                             (:file "completion") (:file "propagation") (:file "reasoner") (:file "numbers")
+                             (:file "completion") (:file "propagation") (:file "reasoner") (:file "asserting")
+                             (:file "atoms") (:file "questions") (:file "numbers")
                              (:file "models") (:file "queries") (:file "core")
                              (:file "reasons") (:file "narration") (:file "why")
                              (:file "findings")))
-               (:file "progression")
+               (:module "progression"
+                :serial t
+                :components ((:file "definitions") (:file "settle") (:file "outline")
+                             (:file "dated") (:file "states") (:file "resolve")
+                             (:file "trajectories") (:file "progress")))
                (:module "e-files"
                 :serial t
                 :components ((:file "conditions") (:file "tokens") (:file "expressions")
@@ -293,4 +298,5 @@ The environment variable CXX names another compiler than g++."))
   :depends-on ("discrepancy-finder")
   :pathname "bench/"
   :serial t
-  :components ((:file "package") (:file "steps") (:file "plans") (:file "benchmarks")))
+  :components ((:file "package") (:file "steps") (:file "plans") (:file "household")
+               (:file "bounded") (:file "benchmarks")))

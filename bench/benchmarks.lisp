@@ -95,4 +95,5 @@ by pair."
                                                 :domain :two-regions)))
   (format stream "symbolic execution        ~,2f ms for Example 1~%"
           (* 1d3 (median-seconds (lambda () (example-trace)) :rounds 21)))
-  (print-plan-benchmarks stream))
+  (print-plan-benchmarks stream)
+  (print-bounded-benchmarks stream))

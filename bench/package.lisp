@@ -9,6 +9,7 @@ same work without it.")
                     (#:prolog #:discrepancy-finder.prolog)
                     (#:desig #:discrepancy-finder.designators)
                     (#:plan #:discrepancy-finder.plan-language)
+                    (#:ec #:discrepancy-finder.event-calculus)
                     (#:discrepancy #:discrepancy-finder.discrepancy)
                     (#:df #:discrepancy-finder))
   (:export

@@ -65,6 +65,17 @@ owns, and its index in the record."
   (let ((longest (1- (expt 2 32))))
     (if seconds (min longest (max 1 (ceiling (* 1000 seconds)))) longest)))
 
+(defun set-option (solver name value)
+  "Set the option of Z3 with NAME, a string, to VALUE, a natural number, in SOLVER."
+  (with-encoded-text (key name)
+    (calling-solver (pointer address solver)
+      (let ((parameters (z3-mk-params pointer)))
+        (z3-params-inc-ref pointer parameters)
+        (z3-params-set-uint pointer parameters (z3-mk-string-symbol pointer key) value)
+        (z3-params-dec-ref pointer
+                           (prog1 parameters
+                             (z3-solver-set-params pointer address parameters)))))))
+
 (defun configure-solver (solver timeout &optional seed)
   "Let the checks of SOLVER end after TIMEOUT seconds (a real, or NIL for no limit); if SEED is
 given, let it start from that."
@@ -86,13 +97,14 @@ given, let it start from that."
                                  (prog1 parameters
                                    (z3-solver-set-params pointer address parameters))))))))))
 
-(defun make-solver (context &key (logic "QF_FD") timeout seed)
+(defun make-solver (context &key (logic "QF_FD") timeout seed options)
   "Return a new SOLVER in CONTEXT.  LOGIC is the name of an SMT-LIB logic, which picks Z3's engine,
 or NIL for Z3's default engine; QF_FD, propositions and finite domains, is the one measured best for
 propositions, and cannot tell where numbers occur.  A check ends after TIMEOUT seconds of wall-clock
 time (a positive real, or NIL for no limit).  The search starts from SEED, a natural number, or from
 Z3's own if it is NIL; the same calls in a new context with the same seed give the same answers and
-models.  Signals Z3-ERROR, e.g. for an unknown LOGIC."
+models.  OPTIONS is a list of (name . number), options of Z3's engine.  Signals Z3-ERROR, e.g. for an
+unknown LOGIC; an unknown option is found out by the first check."
   (check-type logic (or null string))
   (check-type timeout (or null (real (0))))
   (check-type seed (or null (unsigned-byte 32)))
@@ -109,6 +121,8 @@ models.  Signals Z3-ERROR, e.g. for an unknown LOGIC."
                           (z3-ast-vector-inc-ref pointer record)
                           (%make-solver context address record timeout))))))))
     (configure-solver solver timeout seed)
+    (loop for (name . value) in options
+          do (set-option solver name value))
     solver))
 
 (defun forget-answer (solver)

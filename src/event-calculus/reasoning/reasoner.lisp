@@ -3,9 +3,6 @@
 ;;;; A REASONER answers questions about the timepoints of its horizon, which can grow.  It owns a Z3
 ;;;; context, so it is to be closed, or made by WITH-REASONER.  All queries take a theory as well,
 ;;;; for which a reasoner is made and closed.
-;;;;
-;;;; The propositional variable of a timeless atom is its code; those of timepoint t begin at
-;;;; global size + (t - first timepoint) * step size.
 
 (in-package #:discrepancy-finder.event-calculus)
 
@@ -46,101 +43,6 @@ CLOSE-REASONER."
       (format stream "~a, timepoints ~d to ~d"
               (name-text (theory-name (reasoner-theory reasoner))) first last))))
 
-;;; Variables
-
-(declaim (inline code-variable))
-(defun code-variable (code time first-time global-size step-size)
-  "Return the propositional variable of the positive CODE relative to TIME."
-  (declare (type (unsigned-byte 48) code) (type fixnum time first-time)
-           (type (unsigned-byte 24) global-size step-size))
-  (if (global-code-p code)
-      code
-      (the fixnum (+ global-size (code-atom code)
-                     (the fixnum (* (the fixnum (- (+ time (code-distance code)) first-time))
-                                    step-size))))))
-
-(defun encoder-variable (encoder code time)
-  (code-variable code time (car (encoder-horizon encoder)) (encoder-global-size encoder)
-                 (encoder-step-size encoder)))
-
-(defun copy-template (template encoder time output position occurring)
-  "Write the clauses of TEMPLATE relative to TIME into the vector OUTPUT from POSITION on; mark
-their variables in OCCURRING.  Return the position after them."
-  (declare (type (simple-array fixnum (*)) output) (type fixnum position time)
-           (type simple-bit-vector occurring) (optimize speed (safety 1)))
-  (let ((first-time (car (encoder-horizon encoder)))
-        (global-size (encoder-global-size encoder))
-        (step-size (encoder-step-size encoder)))
-    (declare (type (unsigned-byte 24) global-size step-size) (type fixnum first-time))
-    (sb-kernel:with-array-data ((literals (template-literals template)) (start) (end))
-      (declare (ignore start end) (type (simple-array fixnum (*)) literals))
-      (dotimes (index (fill-pointer (template-literals template)) position)
-        (let ((literal (aref literals index)))
-          (setf (aref output position)
-                (if (zerop literal)
-                    0
-                    (let ((variable (code-variable (abs literal) time first-time global-size
-                                                   step-size)))
-                      (setf (sbit occurring variable) 1)
-                      (if (minusp literal) (- variable) variable))))
-          (incf position))))))
-
-(defun schedule (encoder from horizon)
-  "Return a list of (template . time): the clauses to be added when the last timepoint grows from
-FROM, NIL for none so far, to that of HORIZON."
-  (destructuring-bind (first . last) horizon
-    (append
-     (unless from
-       (list (cons (encoder-initial encoder) first)
-             (cons (encoder-absolute encoder) 0)))
-     (loop for template in (reverse (encoder-templates encoder))
-           append (loop for time from (max (- first (template-first template))
-                                           (if from
-                                               (1+ (- from (template-last template)))
-                                               most-negative-fixnum))
-                          to (- last (template-last template))
-                        collect (cons template time))))))
-
-(defun grow-bits (bits size)
-  (if (< (length bits) size)
-      (replace (make-array (max size (* 2 (length bits))) :element-type 'bit :initial-element 0)
-               bits)
-      bits))
-
-(defun used-variables (clauses size)
-  (let ((bits (make-array size :element-type 'bit :initial-element 0)))
-    (loop for literal across (the (simple-array fixnum (*)) clauses)
-          do (setf (sbit bits (abs literal)) 1))
-    bits))
-
-(defun add-to-solver (reasoner from horizon)
-  "Assert the clauses that SCHEDULE names."
-  (let* ((encoder (reasoner-encoder reasoner))
-         (jobs (schedule encoder from horizon))
-         (length (loop for (template) in jobs sum (fill-pointer (template-literals template))))
-         (output (make-array length :element-type 'fixnum))
-         (position 0)
-         (size (+ (encoder-global-size encoder)
-                  (* (+ 1 (- (cdr horizon) (car horizon))) (encoder-step-size encoder)))))
-    (setf (reasoner-occurring reasoner) (grow-bits (reasoner-occurring reasoner) size))
-    (loop for (template . time) in jobs
-          do (setf position (copy-template template encoder time output position
-                                           (reasoner-occurring reasoner))))
-    (unless (reasoner-tracked reasoner)
-      (multiple-value-bind (clauses truths) (simplify-clauses output (reasoner-truths reasoner) size)
-        (setf output clauses
-              (reasoner-truths reasoner) truths)))
-    (z3:assert-clauses (reasoner-clause-set reasoner) output)
-    (loop with used = (used-variables output size)
-          for (template . time) in jobs
-          do (assert-comparisons reasoner template time used)
-             (dolist (codes (template-exclusions template))
-               (let ((variables (loop for code in codes
-                                      collect (encoder-variable encoder code time))))
-                 (dolist (variable variables)
-                   (setf (sbit (reasoner-occurring reasoner) variable) 1))
-                 (z3:assert-at-most (reasoner-clause-set reasoner) variables 1))))))
-
 ;;; Life
 
 (defun check-horizon (theory horizon)
@@ -155,6 +57,10 @@ FROM, NIL for none so far, to that of HORIZON."
     (unless (and range (integerp (car range)) (integerp (cdr range)) (<= (car range) (cdr range)))
       (error 'no-horizon :theory (theory-name theory) :horizon horizon))
     range))
+
+(defparameter *solver-options* '(("simplify.delay" . 3000))
+  "Options of Z3's engine for finite domains: to simplify the clauses takes longer than most questions
+do, so it is put off until after so many conflicts.")
 
 (defun assumed-sentences (ground forms horizon)
   "Return FORMS, checked formulas with timepoints by number, as sentences."
@@ -172,7 +78,9 @@ FROM, NIL for none so far, to that of HORIZON."
       (z3:close-solver (reasoner-solver reasoner)))
     (let ((solver (z3:make-solver (reasoner-context reasoner) :logic (reasoner-logic reasoner)
                                   :timeout (reasoner-timeout reasoner)
-                                  :seed (reasoner-seed reasoner))))
+                                  :seed (reasoner-seed reasoner)
+                                  :options (and (equal (reasoner-logic reasoner) "QF_FD")
+                                                *solver-options*))))
       (setf (reasoner-solver reasoner) solver
             (reasoner-clause-set reasoner) (z3:make-clause-set
                                             solver
@@ -287,110 +195,3 @@ no axiom compares timepoints or names them by number; else it is made anew."
 (defmacro with-reasoner-of ((variable theory &rest options) &body body)
   "Evaluate BODY with VARIABLE bound to THEORY, if it is a reasoner, else to one made for it."
   `(call-with-reasoner (lambda (,variable) ,@body) ,theory (list ,@options)))
-
-;;; Atoms of a reasoner
-
-(defun predicate-atom (theory key time)
-  "Return the atom of the theory's own predicate whose KEY, without the time, is at TIME."
-  (let* ((sorts (rest (assoc (first key) (theory-predicates theory))))
-         (place (position :time sorts)))
-    (append (subseq key 0 (1+ place)) (list time) (nthcdr (1+ place) key))))
-
-(defun atom-of-code (encoder code time)
-  "Return the ground atom of the positive CODE relative to TIME, such as (:holds-at (:f) 3), or NIL
-if it is an auxiliary one."
-  (let* ((ground (encoder-ground encoder))
-         (fluents (encoder-fluent-count encoder))
-         (events (encoder-event-count encoder))
-         (number (code-atom code)))
-    (if (global-code-p code)
-        (let ((statics (atom-table-atoms (ground-theory-statics ground))))
-          (and (<= 1 number (encoder-static-count encoder))
-               (aref statics (1- number))))
-        (let ((time (+ time (code-distance code))))
-          (cond ((< number fluents)
-                 (list :holds-at (svref (ground-theory-fluents ground) number) time))
-                ((< (decf number fluents) fluents)
-                 (list :released-at (svref (ground-theory-fluents ground) number) time))
-                ((< (decf number fluents) events)
-                 (list :happens (svref (ground-theory-events ground) number) time))
-                ((< (decf number events) (encoder-predicate-count encoder))
-                 (predicate-atom (ground-theory-theory ground)
-                                 (aref (atom-table-atoms (ground-theory-predicates ground)) number)
-                                 time)))))))
-
-(defun variable-code (encoder variable)
-  "Return the code and the time of the propositional VARIABLE."
-  (let ((rest (- variable (encoder-global-size encoder))))
-    (if (minusp rest)
-        (values variable 0)
-        (multiple-value-bind (step atom) (floor rest (encoder-step-size encoder))
-          (values (make-code atom 0) (+ step (car (encoder-horizon encoder))))))))
-
-(defun variable-atom (reasoner variable)
-  "Return the ground atom that the propositional VARIABLE stands for, or NIL."
-  (let ((encoder (reasoner-encoder reasoner)))
-    (multiple-value-bind (code time) (variable-code encoder variable)
-      (atom-of-code encoder code time))))
-
-(defun variable-text (reasoner variable)
-  (let ((atom (variable-atom reasoner variable)))
-    (if atom (atom-text atom) (format nil "aux ~d" variable))))
-
-(defun formula-proposition (reasoner formula)
-  "Return the proposition of the ground FORMULA, whose times are timepoints."
-  (let ((encoder (reasoner-encoder reasoner))
-        (clause-set (reasoner-clause-set reasoner)))
-    (labels ((convert (formula)
-               (if (atom formula)
-                   formula
-                   (case (first formula)
-                     (:and (z3:conjunction (mapcar #'convert (rest formula))))
-                     (:or (z3:disjunction (mapcar #'convert (rest formula))))
-                     (:not (z3:negation (convert (second formula))))
-                     (:iff (z3:equivalence (convert (second formula)) (convert (third formula))))
-                     (:compare (comparison-proposition reasoner (rest formula) 0))
-                     (t (let ((code (atom-literal encoder (first formula) (second formula)
-                                                  (or (third formula) 0))))
-                          (if (integerp code)
-                              (z3:clause-set-term clause-set (encoder-variable encoder code 0))
-                              code)))))))
-      (convert formula))))
-
-(defun map-question-times (function theory form)
-  "Call FUNCTION with each timepoint that FORM, a checked question, gives by number, and the event
-that is to happen then, or NIL."
-  (labels ((look (form)
-             (when (consp form)
-               (loop for term in (rest form)
-                     for sort in (or (argument-sorts theory form) (mapcar (constantly nil)
-                                                                          (rest form)))
-                     do (if (and (eq sort :time) (integerp term))
-                            (funcall (the function function) term
-                                     (and (eq (first form) :happens) (second form)))
-                            (look term))))))
-    (look form)))
-
-(defun check-question-times (theory form horizon)
-  "Signal OUTSIDE-HORIZON if FORM, a checked question, gives a timepoint outside of HORIZON."
-  (map-question-times (lambda (time event)
-                        (unless (<= (car horizon) time (if event (1- (cdr horizon)) (cdr horizon)))
-                          (error 'outside-horizon :time time :horizon horizon :event event)))
-                      theory form))
-
-(defun question-proposition (reasoner form &key (blame "the question"))
-  "Return the proposition of FORM, a formula with timepoints by number.  Signals THEORY-ERROR."
-  (let* ((theory (reasoner-theory reasoner))
-         (ground (encoder-ground (reasoner-encoder reasoner)))
-         (checked (parse-formula form theory :kind :query :blame blame))
-         (formula (progn
-                    (check-question-times theory checked (reasoner-horizon reasoner))
-                    (ground-formula ground checked :horizon (reasoner-horizon reasoner))))
-         (encoder (reasoner-encoder reasoner)))
-    ;; Atoms of predicates that no axiom mentions have no variables yet.
-    (unless (and (= (encoder-predicate-count encoder)
-                    (length (atom-table-atoms (ground-theory-predicates ground))))
-                 (= (encoder-static-count encoder)
-                    (length (atom-table-atoms (ground-theory-statics ground)))))
-      (build reasoner))
-    (formula-proposition reasoner formula)))
