@@ -49,16 +49,39 @@ and its clauses, lists of propositional literals."
 (defun inconsistent-p (reasoner selectors)
   (eq (z3:check-literals (reasoner-clause-set reasoner) selectors) :unsat))
 
-(defun minimal-selectors (reasoner selectors)
-  "Return those of the inconsistent SELECTORS without any one of which the rest is consistent."
+(defun minimal-selectors (reasoner selectors others)
+  "Return those of SELECTORS, inconsistent with OTHERS, without any one of which the rest is
+consistent with OTHERS."
   (let ((needed '()))
     (loop while selectors
           do (let ((candidate (pop selectors)))
-               (if (inconsistent-p reasoner (append needed selectors))
+               (if (inconsistent-p reasoner (append needed selectors others))
                    (let ((core (z3:failed-literals (reasoner-clause-set reasoner))))
                      (setf selectors (intersection-in-order selectors core)))
                    (push candidate needed))))
     (nreverse needed)))
+
+(defun few-selectors (reasoner core)
+  "Return a minimal core.  First the axioms in CORE are reduced, with all instances of the calculus's
+own schemas at hand, so that no axiom stands where a completion would do; then the schemas."
+  (let ((axioms '()) (schemas '()) (in-core (make-hash-table)))
+    (dolist (selector core) (setf (gethash selector in-core) t))
+    (map-reasons (lambda (source time selector)
+                   (declare (ignore time))
+                   (cond ((not (source-axiom source)) (push selector schemas))
+                         ((gethash selector in-core) (push selector axioms))))
+                 reasoner)
+    (let ((needed (minimal-selectors reasoner (nreverse axioms) schemas)))
+      (append needed
+              (if (inconsistent-p reasoner needed)
+                  '()
+                  (progn
+                    (inconsistent-p reasoner (append needed schemas))
+                    (minimal-selectors
+                     reasoner
+                     (intersection-in-order (reverse schemas)
+                                            (z3:failed-literals (reasoner-clause-set reasoner)))
+                     needed)))))))
 
 (defun intersection-in-order (list others)
   (let ((table (make-hash-table)))
@@ -69,8 +92,8 @@ and its clauses, lists of propositional literals."
   "Return the list of the reasons of a minimal core of REASONER, a tracked one, or NIL if what it
 holds is consistent."
   (when (inconsistent-p reasoner (all-selectors reasoner))
-    (let* ((selectors (minimal-selectors reasoner
-                                         (z3:failed-literals (reasoner-clause-set reasoner))))
+    (let* ((selectors (few-selectors reasoner
+                                     (z3:failed-literals (reasoner-clause-set reasoner))))
            (wanted (make-hash-table))
            (reasons '()))
       (dolist (selector selectors)

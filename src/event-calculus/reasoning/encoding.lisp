@@ -237,12 +237,14 @@ them, those of the kind STOP end them."
           (cons :event events)
           (cons :fluent (numbers (ground-theory-fluents ground)))))))
 
-(defun encode-exclusion (encoder kind names)
+(defun encode-exclusion (encoder kind names thing)
+  "Add that at most one (:MUTEX) or exactly one (:XOR) of the instances of NAMES, T for all events, is
+true; THING says where that comes from."
   (destructuring-bind (atom-kind . numbers) (excluded-atoms (encoder-ground encoder) names)
     (let* ((template (find-template encoder 0 (if (eq atom-kind :event) 1 0)))
            (literals (loop for number in numbers
                            collect (atom-literal encoder atom-kind number 0))))
-      (with-source (encoder template nil :exclusion names)
+      (with-source (encoder template nil :exclusion thing)
         (when (eq kind :xor)
           (add-clause encoder literals))
         (if (or (encoder-tracked encoder) (null (nthcdr 6 literals)))
@@ -278,9 +280,10 @@ completion is left out, ASSUMPTIONS are sentences that are added."
         (assert-formula encoder (sentence-formula sentence) 0)))
     (dolist (sentence (append (ground-theory-sentences ground) assumptions))
       (encode-sentence encoder sentence))
-    (when (ground-theory-one-event-at-a-time ground)
-      (encode-exclusion encoder :mutex t))
+    (let ((axiom (ground-theory-one-event-at-a-time ground)))
+      (when axiom
+        (encode-exclusion encoder :mutex t axiom)))
     (loop for (kind . names) in (theory-exclusions (ground-theory-theory ground))
-          do (encode-exclusion encoder kind names))
+          do (encode-exclusion encoder kind names names))
     (encode-completions encoder open-events)
     encoder))

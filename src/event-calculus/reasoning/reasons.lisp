@@ -113,10 +113,15 @@
 
 (defun reason-axiom (reason)
   "Return the axiom of REASON, or NIL if it is an instance of a schema of the calculus."
-  (let ((thing (source-thing (ground-reason-source reason))))
+  (source-axiom (ground-reason-source reason)))
+
+(defun source-axiom (source)
+  "Return the axiom that SOURCE is an instance of, or NIL."
+  (let ((thing (source-thing source)))
     (typecase thing
       (sentence (let ((axiom (sentence-axiom thing))) (and (axiom-p axiom) axiom)))
       (effect (effect-axiom thing))
+      (axiom thing)
       (gradual-change (gradual-change-axiom thing)))))
 
 (defun reason-entry (reasoner reason)
@@ -160,5 +165,5 @@
             (let ((code (atom-literal encoder kind number (or dated time))))
               (format nil "~a only if an axiom makes it so"
                       (formula-text (atom-of-code encoder code 0))))))
-         (:exclusion (format nil "at most one of ~:[~{~a~^, ~}~;the events~*~] at ~d" (eq thing t)
+         (:exclusion (format nil "at most one of ~:[~{~a~^, ~}~;the events~*~] at ~d" (axiom-p thing)
                              (if (listp thing) (mapcar #'name-text thing) '()) time)))))))

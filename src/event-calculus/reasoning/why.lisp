@@ -73,6 +73,15 @@ to a contradiction, after which comes CONCLUSION."
                  (append (narrate reasoner (butlast derivations)) (list conclusion)))
                 (t (cons supposition (narrate reasoner derivations :consistent nil))))))))
 
+(defun definition-entries (reason)
+  "Return the entries for the effect axioms to which conditions in REASON refer."
+  (let ((thing (source-thing (ground-reason-source reason))))
+    (when (sentence-p thing)
+      (loop for axiom in (sentence-definitions thing)
+            collect (list (axiom-name axiom)
+                          (format nil "an effect to which ~a refers"
+                                  (axiom-words (sentence-axiom thing))))))))
+
 (defun explain (theory question assumption claim supposition horizon)
   "Return the explanation why the formula ASSUMPTION is impossible, by deriving CLAIM, if any."
   (let ((horizon (check-horizon (as-theory theory)
@@ -87,7 +96,8 @@ to a contradiction, after which comes CONCLUSION."
            (reasoner-theory reasoner) question
            (remove-duplicates (loop for reason in core
                                     unless (assumed-reason-p reason)
-                                      collect (reason-entry reasoner reason))
+                                      collect (reason-entry reasoner reason)
+                                    append (definition-entries reason))
                               :test #'equal :from-end t)
            (explanation-sentences-of reasoner core claim supposition
                                      (format nil "So ~a." question))))))))
