@@ -137,21 +137,26 @@ top-level plans, a name; or a name."
     (terpri stream)
     (arguments:show-option-help (subcommand-options subcommand) :stream stream)))
 
-(defun options-first (words)
-  "Return WORDS with the options, each with its value, before the other words.  Every option of the
-subcommands takes a value."
+(defun flag-p (subcommand word)
+  "Return true if WORD is an option of SUBCOMMAND that takes no value."
+  (let ((option (find (subseq word 2) (subcommand-options subcommand)
+                      :key #'caar :test #'string=)))
+    (and option (eq (getf (rest option) :type) 'boolean))))
+
+(defun options-first (subcommand words)
+  "Return WORDS with the options, each with its value, before the other words."
   (let ((options '()) (others '()))
     (loop while words
           for word = (pop words)
           do (cond ((not (uiop:string-prefix-p "--" word)) (push word others))
-                   ((find #\= word) (push word options))
+                   ((or (find #\= word) (flag-p subcommand word)) (push word options))
                    ((null words) (usage-problem "~a needs a value." word))
                    (t (push word options) (push (pop words) options))))
     (append (nreverse options) (nreverse others))))
 
 (defun parse-options (subcommand words)
   (handler-case (arguments:process-command-line-options (subcommand-options subcommand)
-                                                        (options-first words))
+                                                        (options-first subcommand words))
     (error (condition) (usage-problem "~a" (source:condition-sentence condition)))))
 
 (defun run-subcommand (words)
