@@ -130,7 +130,8 @@ called with each environment.  TIME-VARIABLE, if any, is bound to 0."
       (funcall (the function (compile-instances compilation variables filters level))
                (lambda (environment)
                  ;; The timepoint in question is one of the horizon, whatever is said of it.
-                 (setf *span* (if time-variable
+                 (setf *definitions* '()
+                       *span* (if time-variable
                                   (cons 0 0)
                                   (cons most-positive-fixnum most-negative-fixnum)))
                  (funcall (the function instance) environment))
@@ -253,7 +254,8 @@ called with each environment.  TIME-VARIABLE, if any, is bound to 0."
                    (push (make-sentence :axiom axiom :formula formula
                                         :bindings (bindings-in compilation environment variables)
                                         :first (if timeless 0 first) :last (if timeless 0 last)
-                                        :absolute (or timeless (not *relative*)))
+                                        :absolute (or timeless (not *relative*))
+                                        :definitions *definitions*)
                          sentences)))))))))
     (nreverse sentences)))
 
@@ -325,13 +327,18 @@ ABSOLUTE-EFFECTS is true if an effect axiom is not."
   "The order in which clauses are made ground, so that each finds what it refers to.")
 
 (defun mentioned-effects (form)
-  "Return the effect predicates whose completed definitions FORM refers to."
+  "Return the effects to whose completed definitions FORM refers, as a list of (kind event fluent)."
   (when (consp form)
-    (let ((own (case (first form)
-                 ((:initiates :terminates :releases) (list (first form)))
-                 ((:stopped-in :clipped) '(:terminates))
-                 ((:started-in :declipped) '(:initiates)))))
-      (reduce #'union (mapcar #'mentioned-effects (rest form)) :initial-value own))))
+    (append (case (first form)
+              ((:initiates :terminates :releases) (list (subseq form 0 3)))
+              ((:stopped-in :clipped) (list (list :terminates :?event (third form))))
+              ((:started-in :declipped) (list (list :initiates :?event (third form)))))
+            (mapcan #'mentioned-effects (copy-list (rest form))))))
+
+(defun meet-p (p q)
+  "Return true if the effects P and Q, (kind event fluent), can be the same as far as names tell."
+  (flet ((same-p (a b) (or (variable-p a) (variable-p b) (eq (first a) (first b)))))
+    (and (eq (first p) (first q)) (same-p (second p) (second q)) (same-p (third p) (third q)))))
 
 (defun order-effects (theory clauses)
   "Return CLAUSES, a list of (axiom kind condition head), so that the effects to which a condition
@@ -340,29 +347,19 @@ refers come before it.  Signals THEORY-ERROR if they depend on each other."
     (labels ((place (clause)
                (unless (member clause done :test #'eq)
                  (destructuring-bind (axiom kind condition head) clause
+                   (declare (ignore head))
                    (when (member clause open :test #'eq)
                      (theory-problem theory axiom condition
-                                     "the effects to which the condition refers depend on this ~
-                                      axiom"))
-                   (let ((effects (and (eq kind :effect) (mentioned-effects condition))))
-                     (when effects
-                       (push clause open)
-                       (dolist (other clauses)
-                         (when (and (eq (second other) :effect)
-                                    (member (first (fourth other)) effects)
-                                    (not (eq other clause)))
-                           (place other)))
-                       (when (member (first head) effects)
-                         (theory-problem theory axiom condition
-                                         "the condition refers to effects of the kind that the ~
-                                          axiom states"))
-                       (pop open))))
+                                     "the effects to which the condition refers depend on it"))
+                   (push clause open)
+                   (dolist (effect (and (eq kind :effect) (mentioned-effects condition)))
+                     (dolist (other clauses)
+                       (when (and (eq (second other) :effect) (meet-p effect (fourth other)))
+                         (place other))))
+                   (pop open))
                  (push clause done))))
-      (if (some (lambda (clause)
-                  (and (eq (second clause) :effect) (mentioned-effects (third clause))))
-                clauses)
-          (progn (mapc #'place clauses) (nreverse done))
-          clauses))))
+      (mapc #'place clauses)
+      (nreverse done))))
 
 (defun add-clauses (ground clauses)
   "Make CLAUSES, a list of (axiom kind condition head), ground; return the sentences and the initial
@@ -400,6 +397,7 @@ conditions among them."
   (let* ((ground (make-empty-ground-theory theory))
          (*relative* t)
          (*span* (cons 0 0))
+         (*definitions* '())
          (all-clauses (loop for axiom in (theory-axioms theory)
                             append (loop for clause in (axiom-clauses axiom theory)
                                          collect (cons axiom clause))))
@@ -413,7 +411,8 @@ conditions among them."
                                 (clause-relative-p theory clause absolute-effects))
                               clauses)))
     (setf (ground-theory-absolute-clauses ground) absolute
-          (ground-theory-one-event-at-a-time ground) (/= (length clauses) (length all-clauses)))
+          (ground-theory-one-event-at-a-time ground)
+          (first (find-if (lambda (clause) (one-event-clause-p theory clause)) all-clauses)))
     (multiple-value-bind (sentences initial)
         (add-clauses ground (remove-if (lambda (clause) (member clause absolute)) clauses))
       (setf (ground-theory-sentences ground) sentences
@@ -425,7 +424,8 @@ conditions among them."
   (let* ((copy (copy-with-own-effects ground))
          (*relative* nil)
          (*horizon* horizon)
-         (*span* (cons 0 0)))
+         (*span* (cons 0 0))
+         (*definitions* '()))
     (multiple-value-bind (sentences initial)
         (add-clauses copy (ground-theory-absolute-clauses ground))
       (declare (ignore initial))

@@ -18,6 +18,9 @@
   "The first and the last time met since the begin of the instance.")
 (declaim (type cons *span*))
 
+(defvar *definitions* '()
+  "The effect axioms that the conditions of the instance were replaced by.")
+
 (defstruct (level (:copier nil))
   "A quantifier: its variables and the tag to which its instances are dropped."
   (variables '() :type list :read-only t)

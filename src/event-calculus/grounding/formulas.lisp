@@ -63,9 +63,9 @@
                   when (if (effect-time effect)
                            (eql (effect-time effect) time)
                            (within-horizon-p (effect-guard effect) time))
-                    collect (if (effect-time effect)
-                                (effect-guard effect)
-                                (shift-formula (effect-guard effect) time)))))
+                    do (pushnew (effect-axiom effect) *definitions*)
+                    and collect (shift-formula (effect-guard effect)
+                                               (if (effect-time effect) 0 time)))))
 
 (defun interval-proposition (ground kind first fluent last)
   "Return the ground formula that some event has an effect of KIND on FLUENT at a timepoint from
@@ -79,6 +79,7 @@ FIRST to LAST."
                                             (<= (car *horizon*) time (1- (cdr *horizon*)))))
                                 collect (progn
                                           (note-times time (1+ time))
+                                          (pushnew (effect-axiom effect) *definitions*)
                                           (fold :and
                                                 (list (list :event (effect-event effect) time)
                                                       (shift-formula (effect-guard effect)

@@ -58,13 +58,14 @@ value of TERM then."
 (defstruct (sentence (:copier nil))
   "The instance of AXIOM for BINDINGS.  FIRST and LAST are the distances of the timepoints that it
 speaks of from the one in question; an event at t ends at t + 1.  Where ABSOLUTE is true they are
-timepoints."
+timepoints.  DEFINITIONS are the effect axioms that conditions about effects were replaced by."
   (axiom nil :type (or axiom cons) :read-only t)
   (bindings '() :type list :read-only t)
   (formula t :type (or boolean cons) :read-only t)
   (first 0 :type fixnum :read-only t)
   (last 0 :type fixnum :read-only t)
-  (absolute nil :type boolean :read-only t))
+  (absolute nil :type boolean :read-only t)
+  (definitions '() :type list :read-only t))
 
 (defstruct (ground-theory (:copier nil))
   "A theory in which all variables are replaced by elements."
@@ -86,8 +87,8 @@ timepoints."
   (effects-on-numeric #() :type simple-vector)
   ;; for each fluent whether it can be released: NIL, :POSSIBLY, or :ALWAYS if it is not inertial
   (release #() :type simple-vector)
-  ;; whether an axiom says that no two events happen at once
-  (one-event-at-a-time nil :type boolean)
+  ;; the axiom that says that no two events happen at once, or NIL
+  (one-event-at-a-time nil :type (or null axiom))
   (initial-conditions '() :type list)
   (sentences '() :type list)
   ;; the clauses (axiom kind condition head) that are made ground for each horizon
