@@ -123,14 +123,15 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "conditions")
                (:module "language"
                 :serial t
-                :components ((:file "names") (:file "sorts") (:file "theory") (:file "formula")
-                             (:file "axioms") (:file "define-theory") (:file "state-constraints")
-                             (:file "foundations")))
+                :components ((:file "names") (:file "sorts") (:file "theory") (:file "terms")
+                             (:file "formula") (:file "axioms") (:file "declarations")
+                             (:file "clauses") (:file "define-theory")
+                             (:file "state-constraints") (:file "foundations")))
                (:module "grounding"
                 :serial t
                 :components ((:file "ground-theory") (:file "compiler") (:file "numeric")
                              (:file "formulas")
-                             (:file "axioms")))
+                             (:file "axioms") (:file "values")))
                (:module "reasoning"
                 :serial t
                 :components ((:file "conditions") (:file "clauses") (:file "encoding") (:file "numeric-fluents")
@@ -143,7 +144,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "definitions") (:file "settle") (:file "outline")
                              (:file "dated") (:file "states") (:file "resolve")
-                             (:file "trajectories") (:file "progress")))
+                             (:file "trajectories") (:file "numbers") (:file "progress")))
                (:module "e-files"
                 :serial t
                 :components ((:file "conditions") (:file "tokens") (:file "expressions")
@@ -266,7 +267,10 @@ The environment variable CXX names another compiler than g++."))
                 :pathname "event-calculus/"
                 :serial t
                 :components ((:file "scenario-checks") (:file "scenarios") (:file "schemas")
-                             (:file "checklist") (:file "model-counts")))
+                             (:file "checklist") (:file "model-counts")
+                             (:file "language") (:file "theories") (:file "language-errors")
+                             (:file "hostile-theories") (:file "why") (:file "why-questions")
+                             (:file "findings") (:file "numeric-fluents") (:file "queries")))
                (:file "prolog") (:file "prolog-lazy-lists") (:file "prolog-predicates")
                (:file "designators") (:file "designators-resolved")
                (:file "transforms") (:file "stamped-poses") (:file "roslisp")
@@ -287,7 +291,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "confidence") (:file "abstraction") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
-               (:file "interface") (:file "readme")
+               (:file "interface") (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
   :perform (asdf:test-op (operation system)

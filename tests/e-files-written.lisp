@@ -107,7 +107,7 @@ in which names need other names."
   (:fluents (in-gripper box) (raised) (load) (level-of item shelf-level) (believes belief))
   (:non-inertial-fluents (warm))
   (:manual-release raised)
-  (:events (pick-up box) (load) (put-down))
+  (:events (pick-up box) (unload) (put-down))
   (:axioms
    (begins (initially (and (raised) (not (exists (?box) (in-gripper ?box))))))
    (implies (and (holds-at (raised) ?time)
@@ -119,9 +119,9 @@ in which names need other names."
    (warm-iff-raised (iff (holds-at (warm) ?time) (holds-at (raised) ?time)))
    (only-one (implies (and (happens ?event1 ?time) (happens ?event2 ?time))
                       (= ?event1 ?event2))))
-  (:facts (known (or (happens (pick-up r-1) 0) (happens (load) 1)))
+  (:facts (known (or (happens (pick-up r-1) 0) (happens (unload) 1)))
           (= (size-of r1) 1) (= (size-of r-1) 2) (= (size-of grip) 0))
-  (:narrative (happens (load) 1) (not (holds-at (load) 0)))
+  (:narrative (happens (unload) 1) (not (holds-at (load) 0)))
   (:completion happens (theta-x ab-1))
   (:mutex (pick-up put-down))
   (:time 0 2))
@@ -157,7 +157,7 @@ fluent LevelOf(itemx,shelflevel)
 fluent Believes(belief)
 fluent Warm()
 event PickUp(box)
-event Load()
+event Unload()
 event PutDown()
 noninertial Warm
 manualrelease Raised
@@ -177,11 +177,11 @@ ThetaX: [time] ({itemx} HoldsAt(LevelOf(itemx,1),time)) -> Ab1(Grip,time).
 ; only-one
 Delta: [event1,time,event2] Happens(event1,time) & Happens(event2,time) -> event1=event2.
 ; known
-Happens(PickUp(R12),0) | Happens(Load(),1).
+Happens(PickUp(R12),0) | Happens(Unload(),1).
 SizeOf(R1)=1.
 SizeOf(R12)=2.
 SizeOf(Grip)=0.
-Delta: Happens(Load(),1).
+Delta: Happens(Unload(),1).
 !HoldsAt(Load(),0).
 completion Delta Happens
 completion ThetaX Ab1
@@ -194,7 +194,7 @@ range time 0 2
   (with-output-to-string (stream)
     (ec:print-e-models (ec:models theory :limit nil) stream)))
 
-(defun model-texts (text)
+(defun texts-of-models (text)
   "Return the sorted list of the models in TEXT, each without its number."
   (let ((models '()))
     (dolist (line (uiop:split-string text :separator '(#\Newline)) (sort models #'string<))
@@ -204,9 +204,9 @@ range time 0 2
 
 (test written-theories-have-the-same-models
   (let* ((text (models-text (household)))
-         (models (model-texts text)))
+         (models (texts-of-models text)))
     (is (< 1 (length models)))
-    (is (equal models (model-texts (models-text (ec:parse-e-text (e-text (household)))))))))
+    (is (equal models (texts-of-models (models-text (ec:parse-e-text (e-text (household)))))))))
 
 (test names-of-theories-in-lisp
   (flet ((names (&rest elements)
@@ -270,7 +270,11 @@ sort a1x
       (signals ec:e-file-error
         (ec:save-e-theory (ec:make-checked-theory
                            :name :unwritable
-                           :axioms (list (ec::make-axiom :name :a :formula '(:= 1 (:/ 2)))))
+                           :events '((:go)) :completions '((nil :happens) (:theta :happens))
+                           :axioms (list (ec::make-axiom :name :a :label ec::+facts+
+                                                         :formula '(:happens (:go) 0))
+                                         (ec::make-axiom :name :b :label :theta
+                                                         :formula '(:happens (:go) 1))))
                           file))
       (is (string= (e-text (household)) (uiop:read-file-string file)) "the old file is left alone")
       (is (= 1 (length (uiop:directory-files folder))) "no temporary file is left")))
@@ -343,5 +347,5 @@ range time 0 1
 (test models-of-theories-in-lisp-have-e-names
   (let ((text (models-text (household))))
     (is-true (search "Ab1(Grip, 0)." text))
-    (is-true (search "Happens(Load(), 1)." text))
+    (is-true (search "Happens(Unload(), 1)." text))
     (is (null (search "R-1" text)))))

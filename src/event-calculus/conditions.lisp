@@ -16,12 +16,12 @@ move-leaves\", or NIL.")
    (reason :initarg :reason :reader theory-error-reason
            :documentation "What is wrong, as a string without a full stop.")
    (position :initarg :position :initform nil :reader theory-error-position
-             :documentation "The source position of the axiom, or NIL."))
+             :documentation "The source position of the sub-form, the axiom or the clause, or NIL."))
   (:report (lambda (condition stream)
              (with-slots (theory axiom form reason position) condition
                (format stream "~@[~a: ~]theory ~a~@[, ~a~]~@[, in ~a~]: ~a."
                        (and position (princ-to-string position))
-                       (name-text theory) axiom (and form (formula-text form)) reason))))
+                       (formula-text theory) axiom (and form (formula-text form)) reason))))
   (:documentation "Signaled when a theory is not well-formed.  The report names file and line where
 known, the axiom, the sub-form and what was expected."))
 
@@ -32,7 +32,7 @@ known, the axiom, the sub-form and what was expected."))
   ((name :initarg :name :reader theory-not-found-name :documentation "The name in question."))
   (:report (lambda (condition stream)
              (format stream "There is no theory named ~a."
-                     (name-text (theory-not-found-name condition)))))
+                     (formula-text (theory-not-found-name condition)))))
   (:documentation "Signaled when a theory is asked for that was never defined."))
 
 (define-condition state-constraint-not-found (event-calculus-error)
@@ -68,8 +68,8 @@ known, the axiom, the sub-form and what was expected."))
   (:report (lambda (condition stream)
              (with-slots (theory horizon) condition
                (if horizon
-                   (format stream "~s is no horizon: the last timepoint, or a list of the first and ~
-                                   the last, was expected." horizon)
+                   (format stream "~s is no horizon: the last timepoint, or a list of the first ~
+                                   and the last, was expected." horizon)
                    (format stream "Theory ~a says nothing of timepoints (:time first last), so a ~
                                    horizon must be given."
                            (name-text theory))))))
@@ -78,17 +78,22 @@ known, the axiom, the sub-form and what was expected."))
 (define-condition undetermined (event-calculus-error)
   ((atom :initarg :atom :reader undetermined-atom :documentation "The ground atom, a list.")
    (kind :initarg :kind :reader undetermined-kind
-         :documentation ":FLUENT, :RELEASED, :EVENT, :PREDICATE or :STATIC, a timeless atom.")
+         :documentation ":FLUENT, :RELEASED, :EVENT, :PREDICATE, :STATIC (a timeless atom), :NUMBER or
+:NUMBER-RELEASED.")
    (time :initarg :time :reader undetermined-time :documentation "The timepoint, or NIL.")
    (theory :initarg :theory :reader undetermined-theory :documentation "The theory's name."))
   (:report (lambda (condition stream)
              (with-slots (atom kind time theory) condition
-               (format stream "Theory ~a leaves open whether ~a ~a~@[ at ~d~], and the state has no ~
-                               Z3 context for a variable."
-                       (name-text theory) (formula-text atom)
-                       (ecase kind
-                         (:fluent "holds") (:released "is released") (:event "happens")
-                         ((:predicate :static) "is true"))
+               (format stream "Theory ~a leaves open ~a~@[ at ~d~], and the state has no Z3 context ~
+                               for a variable."
+                       (name-text theory)
+                       (format nil (ecase kind
+                                     (:fluent "whether ~a holds")
+                                     ((:released :number-released) "whether ~a is released")
+                                     (:event "whether ~a happens")
+                                     ((:predicate :static) "whether ~a is true")
+                                     (:number "the number of ~a"))
+                               (formula-text atom))
                        time))))
   (:documentation "Signaled when a state without a Z3 context is progressed to a state of which the
 theory does not determine everything."))

@@ -8,16 +8,6 @@
 
 ;;; Axioms about one arbitrary timepoint
 
-(defun free-variables (form &optional bound)
-  "Return the free variables of FORM in order of appearance."
-  (cond ((variable-p form) (unless (member form bound) (list form)))
-        ((atom form) '())
-        ((member (first form) '(:forall :exists))
-         (free-variables (third form) (append (second form) bound)))
-        (t (remove-duplicates (mapcan (lambda (part) (free-variables part bound))
-                                      (copy-list form))
-                              :from-end t))))
-
 (defun strip-quantifiers (form)
   "Return FORM without the universal quantifiers around it."
   (loop while (and (consp form) (eq (first form) :forall))
@@ -259,22 +249,6 @@ called with each environment.  TIME-VARIABLE, if any, is bound to 0."
                          sentences)))))))))
     (nreverse sentences)))
 
-(defun ground-value (ground axiom formula)
-  "Note the values of a function that FORMULA, (= (function term*) term), gives."
-  (declare (ignore axiom))
-  (let ((formula (strip-quantifiers formula)))
-    (call-with-instances
-     ground formula (free-variables formula) nil '()
-     (lambda (compilation)
-       (let ((key (compile-symbol-term
-                   compilation (second formula)
-                   (first (find-function (ground-theory-theory ground) (first (second formula))))))
-             (value (compile-term compilation (third formula))))
-         (declare (type function key value))
-         (lambda (environment)
-           (setf (gethash (funcall key environment) (ground-theory-function-values ground))
-                 (funcall value environment))))))))
-
 ;;; Whole theories
 
 (defun ground-clause (ground axiom kind condition head)
@@ -282,7 +256,6 @@ called with each environment.  TIME-VARIABLE, if any, is bound to 0."
   (ecase kind
     (:effect (ground-effect ground axiom condition head) '())
     (:trajectory (ground-trajectory ground axiom condition head) '())
-    (:value (ground-value ground axiom head) '())
     (:sentence (ground-sentence ground axiom head))
     (:initially (ground-sentence ground axiom (second head)))))
 
@@ -323,8 +296,9 @@ ABSOLUTE-EFFECTS is true if an effect axiom is not."
                  (step-clause-p theory kind condition head))
              (not (and absolute-effects (eq kind :sentence) (mentions-effects-p head)))))))
 
-(defparameter *clause-order* '(:value :effect :trajectory :initially :sentence)
-  "The order in which clauses are made ground, so that each finds what it refers to.")
+(defparameter *clause-order* '(:effect :trajectory :initially :sentence)
+  "The order in which clauses are made ground, after those for values of functions, so that each
+finds what it refers to.")
 
 (defun mentioned-effects (form)
   "Return the effects to whose completed definitions FORM refers, as a list of (kind event fluent)."
@@ -366,6 +340,7 @@ refers come before it.  Signals THEORY-ERROR if they depend on each other."
 conditions among them."
   (let ((sentences '()) (initial '())
         (clauses (order-effects (ground-theory-theory ground) clauses)))
+    (ground-values ground clauses)
     (dolist (wanted *clause-order* (values (nreverse sentences) (nreverse initial)))
       (loop for (axiom kind condition head) in clauses
             when (eq kind wanted)

@@ -33,9 +33,6 @@ places in the environment."
   (levels '() :type list :read-only t)
   (slots '() :type list :read-only t))
 
-(defconstant +environment-size+ 64
-  "The number of variables that an axiom may have.")
-
 (deftype environment () `(simple-vector ,+environment-size+))
 
 (defmacro environment-lambda ((environment) &body body)

@@ -29,12 +29,6 @@
            (ecase operator
              (:< (< p q)) (:<= (<= p q)) (:> (> p q)) (:>= (>= p q)))))))))
 
-(defun static-form-p (form)
-  "Return true if FORM only compares terms."
-  (case (first form)
-    ((:and :or :not :implies :iff) (every #'static-form-p (rest form)))
-    (t (and (member (first form) *comparisons*) (not (mentions-value-p form))))))
-
 (defun form-variables (form)
   "Return the variables of FORM without quantifiers."
   (remove-duplicates (mapcan #'term-variables (copy-list (rest form)))))

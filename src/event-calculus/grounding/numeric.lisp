@@ -6,11 +6,6 @@
 
 (in-package #:discrepancy-finder.event-calculus)
 
-(defun mentions-value-p (term)
-  "Return true if TERM, or a form, depends on a numeric fluent."
-  (and (consp term)
-       (or (eq (first term) :value-at) (some #'mentions-value-p (rest term)))))
-
 (defun fold-arithmetic (operator terms)
   "Return the ground term (OPERATOR . TERMS), evaluated if all are numbers."
   (if (every #'rationalp terms)

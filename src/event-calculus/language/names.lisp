@@ -69,12 +69,58 @@
   (and (variable-p thing) (eq (variable-sort-name thing) :time)))
 
 (defun proper-list-p (thing)
-  (and (listp thing) (null (cdr (last thing)))))
+  "Return true if THING is a list that ends with NIL."
+  (loop with slow = thing
+        for step from 0
+        while (consp thing)
+        do (setf thing (cdr thing))
+           (when (oddp step) (setf slow (cdr slow)))
+           (when (and (consp thing) (eq thing slow))
+             (return nil))
+        finally (return (null thing))))
 
-(defun formula-text (form)
-  "Return the text of FORM, a tree of symbols and numbers, on one line."
-  (cond ((null form) "()")
-        ((symbolp form) (name-text form))
-        ((and (consp form) (proper-list-p form))
-         (format nil "(~{~a~^ ~})" (mapcar #'formula-text form)))
-        (t (let ((*print-pretty* nil)) (format nil "~(~s~)" form)))))
+(defun circular-list-p (thing)
+  (and (consp thing)
+       (handler-case (null (list-length thing))
+         (type-error () nil))))
+
+(defconstant +longest-text+ 1000
+  "The number of atoms and lists that FORMULA-TEXT prints.")
+
+(defun as-read-p (form)
+  "Return true if FORM, a tree, has a symbol that is no keyword: it is as a user wrote it."
+  (let ((budget +longest-text+))
+    (labels ((look (form depth)
+               (cond ((or (minusp (decf budget)) (> depth 100)) nil)
+                     ((consp form) (or (look (car form) (1+ depth)) (look (cdr form) depth)))
+                     (t (and form (symbolp form) (not (keywordp form)))))))
+      (look form 0))))
+
+(defun formula-text (form &optional (as-read (as-read-p form)))
+  "Return the text of FORM, a tree of symbols and numbers, on one line.  In what is inside of a
+theory all names are keywords, and are printed without a colon; AS-READ is true for what a user
+wrote, whose keywords keep it."
+  (let ((budget +longest-text+))
+    (with-output-to-string (stream)
+      (labels ((write-list (form depth)
+                 (write-char #\( stream)
+                 (when (circular-list-p form)
+                   (setf form (list (car form) '|...|)))
+                 (loop for first = t then nil
+                       while (and (consp form) (plusp budget))
+                       do (unless first (write-char #\Space stream))
+                          (write-form (pop form) (1+ depth)))
+                 (when form
+                   (write-string " . " stream)
+                   (write-form form (1+ depth)))
+                 (write-char #\) stream))
+               (write-form (form depth)
+                 (cond ((or (minusp (decf budget)) (> depth 100)) (write-string "..." stream))
+                       ((null form) (write-string "()" stream))
+                       ((eq form '|...|) (write-string "... circular" stream))
+                       ((symbolp form)
+                        (when (and as-read (keywordp form)) (write-char #\: stream))
+                        (write-string (name-text form) stream))
+                       ((consp form) (write-list form depth))
+                       (t (let ((*print-pretty* nil)) (format stream "~(~s~)" form))))))
+        (write-form form 0)))))

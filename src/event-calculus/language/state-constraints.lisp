@@ -45,9 +45,12 @@
   "Return the state constraint of THEORY written as DEFINITION: (name (?time) [documentation]
 formula)."
   (destructuring-bind (name &optional variables &rest body) definition
+    (unless (and name (symbolp name))
+      (theory-problem theory nil nil "~a cannot be the name of a state constraint"
+                      (written-text name)))
     (let ((documentation (and (stringp (first body)) (pop body)))
           (blame (format nil "state constraint ~a" (name-text name))))
-      (unless (and (listp variables) (= (length variables) 1) (time-variable-p (first variables))
+      (unless (and (proper-list-p variables) (= (length variables) 1) (time-variable-p (first variables))
                    (= (length body) 1))
         (theory-problem theory blame nil "(~a (?time) formula) was expected" (name-text name)))
       (let ((formula (parse-formula (first body) theory :kind :constraint :blame blame)))
@@ -61,11 +64,12 @@ formula)."
                 (list constraint)))
   constraint)
 
-(defmacro define-state-constraint (name (theory) (time) &body body)
+(defmacro define-state-constraint (&whole form name (theory) (time) &body body)
   "Define the state constraint NAME of the theory THEORY.  BODY is an optional documentation string
 and a formula over the timepoints TIME (which must be ?time) and (+ ?time n).  Signals THEORY-ERROR
 and THEORY-NOT-FOUND when evaluated."
-  `(let ((theory (find-theory ',theory)))
+  `(let ((theory (find-theory ',theory))
+         (*place* (place-of ',form)))
      (register-state-constraint theory (parse-state-constraint theory '(,name (,time) ,@body)))))
 
 (defun find-state-constraint (name theory)

@@ -2,7 +2,7 @@
 ;;;;
 ;;;; A THEORY is made by MAKE-CHECKED-THEORY from declarations and axioms, whatever language they
 ;;;; were written in: define-theory.lisp reads the one in Lisp, the folder e-files the one of the
-;;;; Discrete Event Calculus Reasoner.  The axioms' formulas are checked by formula.lisp.
+;;;; Discrete Event Calculus Reasoner.  What does not fit together is a THEORY-PROBLEM.
 
 (in-package #:discrepancy-finder.event-calculus)
 
@@ -112,12 +112,48 @@ all axioms."
 
 (defun find-theory (name)
   "Return the THEORY named by the symbol NAME.  Signals THEORY-NOT-FOUND."
-  (or (gethash (name-keyword name) *theories*)
+  (or (and (symbolp name) (gethash (name-keyword name) *theories*))
       (error 'theory-not-found :name name)))
 
 (defun register-theory (theory)
   "Make THEORY the one that FIND-THEORY returns for its name, and return it."
   (setf (gethash (theory-name theory) *theories*) theory))
+
+;;; Problems
+
+(defvar *places* (make-hash-table :test 'eq :weakness :key :synchronized t)
+  "The source position of lists and sorts of a theory that were made of lists in a file.")
+
+(defvar *place* nil
+  "The source position of what is in work, for problems that have none of their own, or NIL.")
+
+(defun place-of (thing)
+  "Return the source position of THING, a list that was read or was made of one, a sort or an axiom,
+or NIL."
+  (cond ((axiom-p thing) (axiom-position thing))
+        ((or (consp thing) (element-sort-p thing))
+         (or (gethash thing *places*) (source:form-position thing)))))
+
+(defun note-place (thing origin)
+  "Let PLACE-OF return for THING what it returns for ORIGIN, or the place in work.  Return THING."
+  (let ((place (or (place-of origin) *place*)))
+    (when place
+      (setf (gethash thing *places*) place))
+    thing))
+
+(defun latest (things)
+  "Return the one of THINGS that stands last in its file, or the last one."
+  (flet ((line (thing)
+           (let ((place (place-of thing)))
+             (if place (source:source-position-line place) 0))))
+    (reduce (lambda (one other) (if (> (line one) (line other)) one other)) things)))
+
+(defmacro with-place ((thing) &body body)
+  "Evaluate BODY, in which problems lie at THING unless they say better."
+  `(let ((*place* (or (place-of ,thing) *place*))) ,@body))
+
+(defvar *written-clauses* '()
+  "The clauses of the theory in work as they were written, a property list.")
 
 (defun theory-problem (theory axiom form control &rest arguments)
   "Signal a THEORY-ERROR.  THEORY is a theory or its name, AXIOM an axiom, a string or NIL."
@@ -126,9 +162,7 @@ all axioms."
          :axiom (if (axiom-p axiom)
                     (format nil "axiom ~a" (name-text (axiom-name axiom)))
                     axiom)
-         :position (if (axiom-p axiom)
-                       (axiom-position axiom)
-                       (and (consp form) (source:form-position form)))
+         :position (or (place-of form) (place-of axiom) *place*)
          :form form
          :reason (apply #'format nil control arguments)))
 
@@ -179,13 +213,32 @@ argument-sort*), or NIL."
 (defvar *horizon* nil
   "The range (first . last) of timepoints in question, or NIL for the theory's own.")
 
+(defconstant +most-instances+ 1000000
+  "The number of elements that a sort, or instances that a fluent, an event or a term, may have.")
+
+(defun check-size (theory name size what)
+  "Check that the number SIZE of the elements or instances, WHAT, of NAME is no absurd one."
+  (when (> size +most-instances+)
+    (theory-problem theory nil nil "~a has ~d ~a, more than ~d" (name-text name) size what
+                    +most-instances+)))
+
+(defun sort-size (theory name)
+  "Return the number of the elements of the sort named NAME in THEORY."
+  (let ((range (sort-bounds theory name)))
+    (if range
+        (- (1+ (cdr range)) (car range))
+        (length (sort-elements theory name)))))
+
 (defun ground-terms (theory name argument-sorts)
   "Return the list of all (NAME element*)."
   (let ((tuples '(())))
-    (dolist (sort (reverse argument-sorts))
-      (let ((elements (sort-elements theory sort)))
-        (setf tuples (loop for element in elements
-                           nconc (loop for tuple in tuples collect (cons element tuple))))))
+    (check-size theory name
+                (reduce #'* argument-sorts :key (lambda (sort) (sort-size theory sort)))
+                "instances")
+    (dolist (elements (loop for sort in (reverse argument-sorts)
+                            collect (sort-elements theory sort)))
+      (setf tuples (loop for element in elements
+                         nconc (loop for tuple in tuples collect (cons element tuple)))))
     (loop for tuple in tuples collect (cons name tuple))))
 
 (defun ground-symbols (theory declarations sort)
@@ -193,13 +246,15 @@ argument-sort*), or NIL."
   (loop for (name . sorts) in declarations
         unless (member sort sorts) nconc (ground-terms theory name sorts)))
 
-(defun integers (range)
+(defun integers (theory name range)
+  "Return the elements of the sort NAME, the integers of RANGE."
+  (check-size theory name (- (1+ (cdr range)) (car range)) "elements")
   (loop for i from (car range) to (cdr range) collect i))
 
 (defun compute-elements (theory name)
   (let ((sort (theory-sort theory name)))
     (cond ((null sort) '())
-          ((sort-range sort) (integers (sort-range sort)))
+          ((sort-range sort) (integers theory name (sort-range sort)))
           ((eq name :fluent) (ground-symbols theory (theory-fluents theory) :fluent))
           ((eq name :event) (ground-symbols theory (theory-events theory) :event))
           (t (remove-duplicates
@@ -217,7 +272,7 @@ has no such sort.  Elements are keywords, integers, and lists for terms such as 
     (case name
       ((:time :offset)
        (let ((bounds (sort-bounds theory name)))
-         (values (and bounds (integers bounds)) t)))
+         (values (and bounds (integers theory name bounds)) t)))
       (t (multiple-value-bind (elements known) (gethash name (theory-elements theory))
            (cond (known (values elements t))
                  ((theory-sort theory name)
