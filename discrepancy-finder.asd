@@ -130,8 +130,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "grounding"
                 :serial t
                 :components ((:file "ground-theory") (:file "compiler") (:file "numeric")
-                             (:file "formulas")
-                             (:file "axioms") (:file "values")))
+                             (:file "formulas") (:file "relative-forms") (:file "axioms")
+                             (:file "values")))
                (:module "reasoning"
                 :serial t
                 :components ((:file "conditions") (:file "clauses") (:file "encoding") (:file "numeric-fluents")

@@ -55,7 +55,8 @@ the Z3 CONTEXT."
                        (let ((entry (assoc atom observed :test #'equal)))
                          (if entry
                              (cdr entry)
-                             (z3:variable context (ec:atom-text atom)))))))
+                             (z3:variable context (ec:atom-text atom)))))
+                     :context context))
 
 (defun observation (state observed)
   "Return the list of the propositions that STATE has the truth values OBSERVED."
@@ -85,9 +86,7 @@ cannot have the truth value OBSERVED in STATE."
 
 (defun add-candidate (state condition candidates)
   "Return CANDIDATES with (STATE . CONDITION), which joins one of the same state if there is any."
-  (let ((same (find-if (lambda (candidate)
-                         (every #'eq (ec:state-values (car candidate)) (ec:state-values state)))
-                       candidates)))
+  (let ((same (find state candidates :key #'car :test #'ec:same-future-p)))
     (if same
         (substitute (cons state (z3:disjunction (list (cdr same) condition))) same candidates)
         (append candidates (list (cons state condition))))))

@@ -110,25 +110,14 @@ REPLAY-ERROR."))
                           "event"))
      :outcome (outcome-of (value-of object "outcome" 'string)))))
 
-(defun check-allowed (conditions what)
-  "Refuse the file if the theory does not allow WHAT: if one of CONDITIONS, a list of
-(axiom . proposition), is false."
-  (unless (every #'cdr conditions)
-    (replay-problem "the theory as it is now does not allow ~a" what)))
-
-(defun read-states (initial-state steps)
-  "Return the states of the theory from INITIAL-STATE along STEPS, all of which it must allow."
-  (check-allowed (ec:initial-conditions initial-state) "the trace's initial state")
-  (let ((states (list initial-state)))
-    (loop for step in steps
-          for number from 1
-          do (multiple-value-bind (next conditions)
-                 (ec:progress (first states)
-                              (ec:event-number (ec:state-ground initial-state)
-                                               (symbolic:step-event step)))
-               (check-allowed conditions (format nil "step ~d of the trace" number))
-               (push next states)))
-    (nreverse states)))
+(defun read-states (ground fluents steps)
+  "Return the states of the theory GROUND along STEPS, from the one in which just FLUENTS hold; the
+theory must allow them."
+  (multiple-value-bind (states refused) (symbolic:states-along ground fluents steps)
+    (when refused
+      (replay-problem "the theory as it is now does not allow ~:[step ~d of the trace~;the trace's ~
+                       initial state~]" (zerop refused) refused))
+    states))
 
 (defun read-arguments (object plan)
   (let ((arguments (map 'list #'boolean-of (value-of object "arguments" 'simple-vector))))
@@ -147,9 +136,7 @@ REPLAY-ERROR."))
       (replay-problem "the trace has no steps"))
     (symbolic:make-execution-trace
      :plan (plan:plan-name plan) :steps steps :arguments (read-arguments object plan)
-     :states (read-states (ec:concrete-state
-                           ground (lambda (atom) (and (member atom true :test #'equal) t)))
-                          steps))))
+     :states (read-states ground true steps))))
 
 (defun parameter-value (values parameter)
   "Return the value of PARAMETER in the JSON object VALUES, which must be within its bounds."

@@ -48,6 +48,7 @@ them and why, and what they say of a state after known events.")
    #:state #:state-time #:fluent-value #:symbolic-state #:concrete-state #:initial-conditions
    #:state-values #:state-ground #:progress #:holds #:state-fluents #:state-context
    #:state-predecessor #:state-happenings #:state-exact-p #:state-limits #:state-determined-p
+   #:number-value #:state-numbers
    #:state-propositions #:state-in-model #:same-future-p #:ground-numeric-p
    ;; conditions
    #:event-calculus-error #:theory-error #:theory-error-theory #:theory-error-axiom

@@ -119,7 +119,8 @@ DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM."
                    :max-paths max-paths :max-steps max-steps :max-jumps max-jumps
                    :schedules schedules
                    :formula formula
-                   :context context :solver (z3:make-solver context))))
+                   :context context
+                   :solver (make-path-solver context (action-theory-ground domain)))))
 
 (defun close-exploration (exploration)
   "Release the Z3 context of EXPLORATION; its traces stay."
@@ -170,8 +171,18 @@ NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of the pr
            :plan (path-plan path) :found "its end"
            :expected (decision-description (first (path-prefix path))))))
 
-(defun note-gap (exploration control number)
-  (pushnew (format nil control number) (exploration-gaps exploration) :test #'string=))
+(defun note-gap (exploration control &rest arguments)
+  (pushnew (apply #'format nil control arguments) (exploration-gaps exploration)
+           :test #'string=))
+
+(defun note-limits (exploration path)
+  "Note what the theory says and progression along PATH does not."
+  (loop for (axiom . reason) in (ec:state-limits (first (path-states path)))
+        do (note-gap exploration "what ~a says: ~a"
+                     (if (typep axiom 'ec:axiom)
+                         (format nil "axiom ~a" (ec:name-text (ec:axiom-name axiom)))
+                         (ec:formula-text axiom))
+                     reason)))
 
 (defun run-path (exploration prefix)
   "Run the plan of EXPLORATION along PREFIX and return the trace of that path, or NIL."
@@ -197,6 +208,7 @@ NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of the pr
       ;; The deepest decision comes first: depth-first.
       (setf (exploration-pending exploration)
             (append (path-alternatives path) (exploration-pending exploration)))
+      (note-limits exploration path)
       (case (path-ending path)
         (:dead-end (incf (exploration-dead-ends exploration)))
         (:too-many-steps

@@ -4,7 +4,8 @@
 ;;;; the states that follow by the theory.  It is made from a path on which a state constraint comes
 ;;;; true, cut after the last timepoint at which it does; the path may go on to a failure, or to
 ;;;; where the theory allows nothing.  The initial state is the least that the path allows, with
-;;;; false before true in the order of the fluents: a function of the path alone.
+;;;; false before true in the order of the fluents: a function of the path alone.  So are the states
+;;;; that follow, where the theory leaves a choice.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -61,26 +62,65 @@ events and outcomes are."
   "Return the least list of truth values of PROPOSITIONS that the SOLVER allows, and add them to
 its assertions."
   (loop for proposition in propositions
-        for value = (not (eq (z3:check solver (list (z3:negation proposition))) :sat))
+        for value = (if (z3:term-p proposition)
+                        (not (eq (z3:check solver (list (z3:negation proposition))) :sat))
+                        proposition)
         do (z3:solver-assert solver (if value proposition (z3:negation proposition)))
         collect value))
 
-(defun states-along (initial-state steps)
-  "Return the states of the theory from the concrete INITIAL-STATE along STEPS."
-  (let* ((ground (ec:state-ground initial-state))
-         (states (list initial-state)))
-    (dolist (step steps (nreverse states))
-      (push (ec:progress (first states) (ec:event-number ground (step-event step))) states))))
+(defun least-states (solver states)
+  "Return STATES, which follow each other, with truth values for their propositions: the least that
+SOLVER allows, the earlier state first."
+  (let ((initial (first states)) (concrete '()))
+    (least-values solver (ec:state-propositions initial))
+    ;; Where the theory leaves nothing open the initial state has settled the rest.
+    (unless (every #'ec:state-determined-p states)
+      (dolist (state (rest states))
+        (least-values solver (ec:state-propositions state))))
+    (z3:check solver)
+    (dolist (state states (nreverse concrete))
+      (push (ec:state-in-model state
+                               (lambda (proposition) (z3:model-value solver proposition))
+                               (first concrete))
+            concrete))))
+
+(defun make-path-solver (context ground)
+  "Return a solver for paths of the theory GROUND.  Its questions are many and small: Z3's engine for
+QF_UF, which keeps what it has learnt, is some ten times faster there than the one for QF_FD."
+  (z3:make-solver context :logic (if (ec:ground-numeric-p ground) nil "QF_UF")))
+
+(defun states-along (ground fluents steps)
+  "Return the concrete states of the theory GROUND along STEPS from the state in which just FLUENTS, a
+list of ground fluents, hold: the least ones, in the order of time and of the fluents, that the theory
+allows.  If it allows none return NIL and the number of the first step that it forbids, counted from
+1, or 0 if it forbids the first state."
+  (z3:with-context (context)
+    (let* ((solver (make-path-solver context ground))
+           (state (ec:concrete-state ground
+                                     (lambda (atom) (and (member atom fluents :test #'equal) t))
+                                     :context context))
+           (states (list state)))
+      (flet ((allowed-p (conditions)
+               (loop for (nil . proposition) in conditions
+                     do (z3:solver-assert solver proposition))
+               (eq (z3:check solver) :sat)))
+        (unless (allowed-p (ec:initial-conditions state))
+          (return-from states-along (values '() 0)))
+        (loop for step in steps
+              for number from 1
+              do (multiple-value-bind (next conditions)
+                     (ec:progress (first states) (ec:event-number ground (step-event step)))
+                   (unless (allowed-p conditions)
+                     (return-from states-along (values '() number)))
+                   (push next states)))
+        (values (least-states solver (nreverse states)) nil)))))
 
 (defun instance-time (path formula span)
   "Return the last timepoint at which the ground FORMULA of a state constraint can be true on PATH,
 and its proposition there; or NIL."
-  (let ((states (reverse (path-states path)))
-        (events (loop for step in (reverse (path-steps path))
-                      collect (ec:event-number (action-theory-ground (path-domain path))
-                                               (step-event step)))))
+  (let ((states (reverse (path-states path))))
     (loop for time from (- (length states) span 1) downto 0
-          for proposition = (ec:holds formula (nthcdr time states) (or (nthcdr time events) '(nil)))
+          for proposition = (ec:holds formula (nthcdr time states))
           when (possible-p path proposition)
             return (values time proposition))))
 
@@ -89,20 +129,12 @@ and its proposition there; or NIL."
 if it comes true nowhere on it."
   (multiple-value-bind (time proposition) (instance-time path formula span)
     (when time
-      (let ((solver (path-solver path))
-            (initial (first (last (path-states path)))))
+      (let ((solver (path-solver path)) (length (+ time span)))
         (z3:push-scope solver)
         (z3:solver-assert solver proposition)
-        (let* ((values (least-values solver (append argument-propositions
-                                                    (coerce (ec:state-values initial) 'list))))
-               (arguments (subseq values 0 (length argument-propositions)))
-               (fluents (nthcdr (length argument-propositions) values))
-               (steps (subseq (reverse (path-steps path)) 0 (+ time span))))
+        (let ((arguments (least-values solver argument-propositions))
+              (states (least-states solver (subseq (reverse (path-states path)) 0 (1+ length)))))
           (z3:pop-scope solver)
           (make-execution-trace
-           :plan (path-plan path) :arguments arguments :steps steps
-           :states (states-along (ec:concrete-state (action-theory-ground (path-domain path))
-                                                    (lambda (atom)
-                                                      (declare (ignore atom))
-                                                      (pop fluents)))
-                                 steps)))))))
+           :plan (path-plan path) :arguments arguments :states states
+           :steps (subseq (reverse (path-steps path)) 0 length)))))))

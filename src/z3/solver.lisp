@@ -65,37 +65,31 @@ owns, and its index in the record."
   (let ((longest (1- (expt 2 32))))
     (if seconds (min longest (max 1 (ceiling (* 1000 seconds)))) longest)))
 
-(defun set-option (solver name value)
-  "Set the option of Z3 with NAME, a string, to VALUE, a natural number, in SOLVER."
-  (with-encoded-text (key name)
-    (calling-solver (pointer address solver)
-      (let ((parameters (z3-mk-params pointer)))
-        (z3-params-inc-ref pointer parameters)
-        (z3-params-set-uint pointer parameters (z3-mk-string-symbol pointer key) value)
-        (z3-params-dec-ref pointer
-                           (prog1 parameters
-                             (z3-solver-set-params pointer address parameters)))))))
+(defun set-options (solver options)
+  "Set OPTIONS, an alist from names to values, as MAKE-SOLVER has them, in SOLVER."
+  (calling-solver (pointer address solver)
+    (let ((parameters (z3-mk-params pointer)))
+      (z3-params-inc-ref pointer parameters)
+      (loop for (name . value) in options
+            do (with-encoded-text (text name)
+                 (let ((key (z3-mk-string-symbol pointer text)))
+                   (etypecase value
+                     (boolean (z3-params-set-bool pointer parameters key value))
+                     ((unsigned-byte 32) (z3-params-set-uint pointer parameters key value))
+                     (double-float (z3-params-set-double pointer parameters key value))
+                     (string (with-encoded-text (text value)
+                               (z3-params-set-symbol pointer parameters key
+                                                     (z3-mk-string-symbol pointer text))))))))
+      (z3-params-dec-ref pointer (prog1 parameters
+                                   (z3-solver-set-params pointer address parameters))))))
 
-(defun configure-solver (solver timeout &optional seed)
-  "Let the checks of SOLVER end after TIMEOUT seconds (a real, or NIL for no limit); if SEED is
-given, let it start from that."
-  (let ((milliseconds (timeout-milliseconds timeout)))
-    (with-encoded-text (timeout-key "timeout")
-      ;; Z3 would put its own handler of SIGINT in the place of SBCL's.
-      (with-encoded-text (signal-key "ctrl_c")
-        (with-encoded-text (seed-key "random_seed")
-          (calling-solver (pointer address solver)
-            (let ((parameters (z3-mk-params pointer)))
-              (z3-params-inc-ref pointer parameters)
-              (z3-params-set-bool pointer parameters (z3-mk-string-symbol pointer signal-key) nil)
-              (z3-params-set-uint pointer parameters (z3-mk-string-symbol pointer timeout-key)
-                                  milliseconds)
-              (when seed
-                (z3-params-set-uint pointer parameters (z3-mk-string-symbol pointer seed-key)
-                                    seed))
-              (z3-params-dec-ref pointer
-                                 (prog1 parameters
-                                   (z3-solver-set-params pointer address parameters))))))))))
+(defun configure-solver (solver timeout &optional options)
+  "Let the checks of SOLVER end after TIMEOUT seconds (a real, or NIL for no limit); set OPTIONS."
+  (set-options solver
+               (list* (cons "timeout" (timeout-milliseconds timeout))
+                      ;; Z3 would put its own handler of SIGINT in the place of SBCL's.
+                      (cons "ctrl_c" nil)
+                      options)))
 
 (defun make-solver (context &key (logic "QF_FD") timeout seed options)
   "Return a new SOLVER in CONTEXT.  LOGIC is the name of an SMT-LIB logic, which picks Z3's engine,
@@ -103,11 +97,15 @@ or NIL for Z3's default engine; QF_FD, propositions and finite domains, is the o
 propositions, and cannot tell where numbers occur.  A check ends after TIMEOUT seconds of wall-clock
 time (a positive real, or NIL for no limit).  The search starts from SEED, a natural number, or from
 Z3's own if it is NIL; the same calls in a new context with the same seed give the same answers and
-models.  OPTIONS is a list of (name . number), options of Z3's engine.  Signals Z3-ERROR, e.g. for an
-unknown LOGIC; an unknown option is found out by the first check."
+models.  OPTIONS is an alist from names of options of Z3's engine to natural numbers, double floats,
+T, NIL, or words as strings.  Signals Z3-ERROR, e.g. for an unknown LOGIC; an unknown option is found out by the first
+assertion or check."
   (check-type logic (or null string))
   (check-type timeout (or null (real (0))))
   (check-type seed (or null (unsigned-byte 32)))
+  (loop for (name . value) in options
+        do (check-type name string)
+           (check-type value (or boolean (unsigned-byte 32) double-float string)))
   (let ((solver (with-encoded-text (text (or logic ""))
                   (calling-z3 (pointer context)
                     (let ((address (foreign:with-c-float-traps
@@ -120,9 +118,8 @@ unknown LOGIC; an unknown option is found out by the first check."
                         (let ((record (z3-mk-ast-vector pointer)))
                           (z3-ast-vector-inc-ref pointer record)
                           (%make-solver context address record timeout))))))))
-    (configure-solver solver timeout seed)
-    (loop for (name . value) in options
-          do (set-option solver name value))
+    (configure-solver solver timeout
+                      (if seed (acons "random_seed" seed options) options))
     solver))
 
 (defun forget-answer (solver)

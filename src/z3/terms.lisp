@@ -224,7 +224,7 @@ only constants.  Signal Z3-ERROR unless all have that sort and it is of KIND: th
 (defun term-name (term)
   "Return the name, a string, of TERM if it is a variable, else NIL; for a variable of a clause set
 without names it is an integer.  The SMT-LIB text of a term shows the name between bars where it
-must be quoted; the empty name is shown as the name null is."
+must be quoted."
   (when (eq (term-operand term) t)
     (let ((address (live-pointer term (term-context term))))
       (calling-z3 (pointer (term-context term))

@@ -2,7 +2,8 @@
 ;;;;
 ;;;; A name may be any Lisp string.  So that different names stay different and can be read back,
 ;;;; the character of code 0 is written as the two bytes C0 80, which no other character gives, and
-;;;; lone surrogates, which SBCL allows in strings, as three bytes like their neighbours.
+;;;; lone surrogates, which SBCL allows in strings, as three bytes like their neighbours.  The empty
+;;;; string is written as the two bytes C1 80, since to Z3 the empty name is no name.
 
 (in-package #:discrepancy-finder.z3)
 
@@ -16,6 +17,8 @@
   "Return a fresh vector of the octets of the string TEXT and a zero."
   (let ((text (coerce text 'simple-string)) (size 1))
     (declare (fixnum size))
+    (when (zerop (length text))
+      (return-from encode (coerce '(#xC1 #x80 0) 'octets)))
     (macrolet ((with-string-type (&body body)
                  `(etypecase text
                     ((simple-array character (*)) ,@body)
@@ -67,4 +70,5 @@
                          (setf code (ldb (byte (- 6 tail) 0) octet))
                          (loop repeat tail
                                do (setf code (logior (ash code 6) (ldb (byte 6 0) (next))))))
-                       (write-char (code-char code) text))))))))
+                       (unless (= octet #xC1)
+                         (write-char (code-char code) text)))))))))

@@ -30,9 +30,15 @@ or NIL if it is none."
         (cond ((application-p left) form)
               ((application-p right) (list := right left)))))))
 
+(defun with-other-heads (clauses)
+  "Return CLAUSES, each with the heads of the others, of which all or none has an instance."
+  (loop for (kind condition head) in clauses
+        collect (list* kind condition head
+                       (remove head (mapcar #'third clauses) :test #'eq))))
+
 (defun axiom-clauses (axiom theory)
-  "Return the clauses of AXIOM: a list of (kind condition head).  KIND is :EFFECT, :TRAJECTORY,
-:INITIALLY, :VALUE (of a function) or :SENTENCE.  The condition of the last two is T; the head of a
+  "Return the clauses of AXIOM: a list of (kind condition head . other-heads).  KIND is :EFFECT,
+:TRAJECTORY, :INITIALLY, :VALUE (of a function) or :SENTENCE.  The condition of the last two is T; the head of a
 :VALUE is an equation with the function on the left, or implies one under a condition that only
 compares terms."
   (labels ((heads (form condition)
@@ -41,7 +47,7 @@ compares terms."
                (:implies (heads (third form) (conjoin condition (second form))))
                (:and (let ((clauses (mapcar (lambda (part) (heads part condition)) (rest form))))
                        (and clauses (notany #'null clauses)
-                            (apply #'append clauses))))
+                            (with-other-heads (apply #'append clauses)))))
                (t (let ((kind (head-kind form))
                         (equation (value-equation theory form)))
                     (cond (kind (list (list kind condition form)))

@@ -13,11 +13,12 @@
 (defstruct (dated (:copier nil))
   "The instances for the timepoints HORIZON of the axioms that OUTLINE does without."
   (horizon nil :type cons :read-only t)
-  ;; tables from timepoints: the demands that are due then; the effects of events then; the
-  ;; supports of events and predicates then, each (kind number supports*) with one list of supports
+  ;; tables from timepoints: the demands that are due then; the effects of events then, also those
+  ;; on numbers; the supports of events and predicates then, each (kind number supports*) with one list of supports
   ;; for each completion
   (demands (make-hash-table) :type hash-table :read-only t)
   (effects (make-hash-table) :type hash-table :read-only t)
+  (numeric-effects (make-hash-table) :type hash-table :read-only t)
   (supports (make-hash-table) :type hash-table :read-only t)
   ;; for each cause its trajectories
   (changes #() :type simple-vector :read-only t)
@@ -143,11 +144,16 @@ completions."
              when (and (eq kind other-kind) (eql number other-number))
                return alternatives)))
 
-(defun enter-effects (dated ground)
-  (loop for effects across (ground-theory-effects ground)
-        do (dolist (effect effects)
-             (when (effect-time effect)
-               (push effect (gethash (effect-time effect) (dated-effects dated)))))))
+(defun enter-effects (outline dated ground)
+  (flet ((enter (vector table)
+           (loop for effects across vector
+                 do (dolist (effect effects)
+                      (when (effect-time effect)
+                        (push effect (gethash (effect-time effect) table)))))))
+    (enter (ground-theory-effects ground) (dated-effects dated))
+    (enter (ground-theory-effects-on-numeric ground) (dated-numeric-effects dated))
+    (loop for effects being the hash-values of (dated-numeric-effects dated)
+          do (note-numeric-limits outline effects))))
 
 (defun compute-dated (outline horizon)
   "Return the dated instances of OUTLINE for HORIZON."
@@ -156,7 +162,7 @@ completions."
       (let ((dated (make-dated :horizon horizon :changes (ground-theory-changes copy))))
         (enter-demands outline dated sentences)
         (dolist (sentence sentences) (enter-supports outline dated sentence))
-        (enter-effects dated copy)
+        (enter-effects outline dated copy)
         (set-release outline copy)
         dated))))
 

@@ -42,6 +42,30 @@ of the timepoint."
                (:iff (apply #'fold-iff (parts)))
                (t formula))))))
 
+(defun map-distances (function formula)
+  "Call FUNCTION with kind and distance of all in the ground FORMULA that depends on the time; the
+kind of numbers is :VALUE."
+  (labels ((look-at-term (term)
+             (when (consp term)
+               (if (eq (first term) :value)
+                   (funcall function :value (third term))
+                   (mapc #'look-at-term (rest term))))))
+    (map-atoms (lambda (atom)
+                 (case (first atom)
+                   (:static)
+                   (:compare (mapc #'look-at-term (cddr atom)))
+                   (t (funcall function (first atom) (third atom)))))
+               formula)))
+
+(defun formula-start (formula)
+  "Return the least distance in the ground FORMULA, 0 at most."
+  (let ((start 0))
+    (map-distances (lambda (kind distance)
+                     (declare (ignore kind))
+                     (setf start (min start distance)))
+                   formula)
+    start))
+
 (defun mentions-kind-p (formula kinds)
   "Return true if the ground FORMULA has an atom of one of KINDS."
   (map-atoms (lambda (atom)
@@ -51,10 +75,10 @@ of the timepoint."
 (defun formula-reach (formula)
   "Return the largest distance in the ground FORMULA, NIL if it has no time."
   (let ((reach nil))
-    (map-atoms (lambda (atom)
-                 (unless (eq (first atom) :static)
-                   (setf reach (max (third atom) (or reach (third atom))))))
-               formula)
+    (map-distances (lambda (kind distance)
+                     (declare (ignore kind))
+                     (setf reach (max distance (or reach distance))))
+                   formula)
     reach))
 
 (defun looks-ahead-p (formula)
@@ -65,11 +89,9 @@ of the timepoint."
   "Return the last distance that the ground FORMULA speaks of, 0 at least; an event at t ends at
 t + 1."
   (let ((end 0))
-    (map-atoms (lambda (atom)
-                 (case (first atom)
-                   (:event (setf end (max end (1+ (third atom)))))
-                   ((:fluent :released :predicate) (setf end (max end (third atom))))))
-               formula)
+    (map-distances (lambda (kind distance)
+                     (setf end (max end (if (eq kind :event) (1+ distance) distance))))
+                   formula)
     end))
 
 (defun plain-parts-first (formula)
@@ -105,7 +127,7 @@ events and predicates first, since they are known before these."
   "Return the support that FORMULA is, by SENTENCE, for an atom at DISTANCE that lasts for DURATION."
   (let ((last (- (sentence-last sentence) distance)))
     (make-support :formula (plain-parts-first formula)
-                  :first (- (sentence-first sentence) distance)
+                  :first (min (- (sentence-first sentence) distance) (formula-start formula))
                   :last last
                   :ahead-p (or (looks-ahead-p formula)
                                (> last (max duration (span-end formula)))))))

@@ -17,8 +17,8 @@ the axiom behind it, or the exclusion, a list.  FLUENTS are the numbers of the f
   (fluents '() :type list :read-only t))
 
 (defstruct (influence (:copier nil))
-  "What an event does to the fluent with the number FLUENT: the guards of the effects.  AHEAD-P is
-true if one of them looks ahead."
+  "What an event does to the fluent with the number FLUENT: the guards of the effects, each
+(least-distance . formula).  AHEAD-P is true if one of them looks ahead."
   (fluent 0 :type fixnum :read-only t)
   (initiates '() :type list)
   (terminates '() :type list)
@@ -48,10 +48,12 @@ true if one of them looks ahead."
   ;; demands on a step: for each event, and for all
   (event-demands-of #() :type simple-vector)
   (other-demands '() :type list)
-  ;; pairs (:mutex or :xor . numbers) of events
+  ;; (axiom :mutex or :xor . numbers) of events, the axiom as in demands, NUMBERS T for all
   (exclusions '() :type list)
   ;; what is not exact whatever happens: a list of (axiom . reason)
   (limits '() :type list)
+  ;; whether anything looks at more than the latest state and the events after it
+  (memory-p nil :type boolean)
   ;; the instances of the axioms that compare timepoints or name them by number; see dated.lisp
   (dated-p nil :type boolean :read-only t)
   (dated nil))
@@ -65,12 +67,12 @@ true if one of them looks ahead."
       (let ((influence (or (find (effect-fluent effect) influences :key #'influence-fluent)
                            (first (push (make-influence :fluent (effect-fluent effect))
                                         influences))))
-            (guard (effect-guard effect)))
+            (guard (cons (formula-start (effect-guard effect)) (effect-guard effect))))
         (ecase (effect-kind effect)
           (:initiates (push guard (influence-initiates influence)))
           (:terminates (push guard (influence-terminates influence)))
           (:releases (push guard (influence-releases influence))))
-        (when (looks-ahead-p guard)
+        (when (looks-ahead-p (effect-guard effect))
           (setf (influence-ahead-p influence) t))))))
 
 (defun all-influences (ground)
@@ -98,7 +100,7 @@ depend on the events of their timepoint.  Return the least integer if it has no 
                     (let ((definition (gethash (second atom) (outline-predicates outline))))
                       (setf end (max end (+ (third atom)
                                             (if definition (definition-extent definition) 0))))))
-                   ((:fluent :released) (setf end (max end (third atom))))))
+                   (t (setf end (max end (or (formula-reach atom) end))))))
                formula)
     end))
 
@@ -108,8 +110,10 @@ depend on the events of their timepoint.  Return the least integer if it has no 
 (defun sentence-demand (outline sentence)
   "Return SENTENCE as a demand: moved, unless it is an instance for given timepoints, so that its
 first distance is 0."
-  (let ((shift (if (sentence-absolute sentence) 0 (- (sentence-first sentence))))
-        (formula (sentence-formula sentence)))
+  (let* ((formula (sentence-formula sentence))
+         (shift (if (sentence-absolute sentence)
+                    0
+                    (- (min (sentence-first sentence) (formula-start formula))))))
     (make-demand :axiom (sentence-axiom sentence)
                  :formula (plain-parts-first (shift-formula formula shift))
                  :last (+ shift (effective-last outline sentence))
@@ -137,7 +141,7 @@ one of them happens; or NIL if there are none."
            (dolist (event guards)
              (push demand (svref (outline-event-demands-of outline) event))))
           ((not once) (push demand (outline-other-demands outline)))
-          ((or (mentions-kind-p formula '(:predicate :released)) (null (demand-fluents demand)))
+          ((or (mentions-kind-p formula '(:predicate :released :compare)) (null (demand-fluents demand)))
            (push demand (outline-state-demands outline)))
           (t (dolist (fluent (demand-fluents demand))
                (push demand (svref (outline-state-demands-of outline) fluent)))))))
@@ -181,11 +185,12 @@ NAMES holds."
 (defun add-exclusions (outline)
   (let ((ground (outline-ground outline)))
     (when (ground-theory-one-event-at-a-time ground)
-      (push (cons :mutex t) (outline-exclusions outline)))
+      (push (list* (ground-theory-one-event-at-a-time ground) :mutex t)
+            (outline-exclusions outline)))
     (loop for (kind . names) in (theory-exclusions (ground-theory-theory ground))
           for (atom-kind . numbers) = (excluded-atoms ground names)
           do (if (eq atom-kind :event)
-                 (push (cons kind numbers) (outline-exclusions outline))
+                 (push (list* (cons kind names) kind numbers) (outline-exclusions outline))
                  (dolist (demand (fluent-exclusion-demands ground kind names))
                    (file-demand outline demand))))))
 
@@ -259,6 +264,27 @@ release, and which are causes of trajectories."
                   :event-demands-of (make-array (length (ground-theory-events ground))
                                                :initial-element '()))))
 
+(defun looks-back-p (outline)
+  "Return true if OUTLINE looks at timepoints before that of the latest state."
+  (flet ((definition-looks-back-p (definition)
+           (loop for supports in (definition-alternatives definition)
+                   thereis (loop for support in supports
+                                   thereis (minusp (support-first support)))))
+         (influence-looks-back-p (influence)
+           (loop for guards in (list (influence-initiates influence)
+                                     (influence-terminates influence)
+                                     (influence-releases influence))
+                   thereis (some #'minusp (mapcar #'car guards)))))
+    (and (or (outline-dated-p outline)
+             (outline-causes outline)
+             (find-if (lambda (demand) (> (demand-last demand) 1)) (outline-other-demands outline))
+             (loop for table in (list (outline-events outline) (outline-predicates outline))
+                     thereis (loop for definition being the hash-values of table
+                                     thereis (definition-looks-back-p definition)))
+             (some (lambda (influences) (some #'influence-looks-back-p influences))
+                   (outline-influences outline)))
+         t)))
+
 (defun note-late-demands (outline demand sentence)
   (when (> (effective-last outline sentence) (sentence-last sentence))
     (push (cons (demand-axiom demand)
@@ -282,6 +308,9 @@ release, and which are causes of trajectories."
       (set-release outline ground)
       (when (outline-dated-p outline)
         (outline-dated-until outline (outline-first-time outline)))
+      (setf (outline-memory-p outline) (looks-back-p outline))
+      (map nil (lambda (effects) (note-numeric-limits outline effects))
+           (ground-theory-effects-on-numeric ground))
       outline)))
 
 (defvar *outlines* (make-hash-table :test 'eq :weakness :key :synchronized t)

@@ -33,31 +33,31 @@
 
 (defun require-exclusions (step events)
   "Require of EVENTS, (number . proposition), what the exclusions of the theory say."
-  (loop for (kind . numbers) in (outline-exclusions (step-outline step))
+  (loop for (axiom kind . numbers) in (outline-exclusions (step-outline step))
         for members = (if (eq numbers t)
                           events
                           (remove-if-not (lambda (event) (member (car event) numbers)) events))
         do (loop for ((nil . proposition) . others) on members
                  do (loop for (nil . other) in others
-                          do (require-condition step nil
+                          do (require-condition step axiom
                                                 (z3:negation
                                                  (z3:conjunction (list proposition other))))))
            (when (eq kind :xor)
-             (require-condition step nil (z3:disjunction (mapcar #'cdr members))))))
+             (require-condition step axiom (z3:disjunction (mapcar #'cdr members))))))
 
 ;;; Effects.  A TURN is (fluent initiated terminated released), propositions, or (fluent :ahead).
 
-(defun guards-proposition (step happens guards time)
-  "Return the proposition that HAPPENS and one of GUARDS is true."
+(defun guards-proposition (step happens guards base)
+  "Return the proposition that HAPPENS and one of GUARDS, (least-distance . formula), is true.  An
+effect whose condition is about times before the first one is none."
   (if (null guards)
       nil
-      (z3:conjunction
-       (list happens
-             (let ((terms '()))
-               (dolist (guard guards (z3:disjunction terms))
-                 (let ((value (evaluate step guard time)))
-                   (cond ((eq value t) (return t))
-                         (value (push value terms))))))))))
+      (let ((terms '()) (first (outline-first-time (step-outline step))))
+        (loop for (start . guard) in guards
+              do (let ((value (and (>= (+ base start) first) (evaluate step guard base))))
+                   (cond ((eq value t) (return-from guards-proposition happens))
+                         (value (push value terms)))))
+        (z3:conjunction (list happens (z3:disjunction terms))))))
 
 (defun influence-turn (step influence happens base)
   (list (influence-fluent influence)
@@ -100,7 +100,8 @@
 (defun dated-turn (step effect happens)
   (if (> (or (formula-reach (effect-guard effect)) 0) (step-time step))
       (list (effect-fluent effect) :ahead)
-      (let ((proposition (guards-proposition step happens (list (effect-guard effect)) 0)))
+      (let ((proposition (z3:conjunction (list happens
+                                              (evaluate step (effect-guard effect) 0)))))
         (flet ((if-kind (kind) (and (eq (effect-kind effect) kind) proposition)))
           (list (effect-fluent effect) (if-kind :initiates) (if-kind :terminates)
                 (if-kind :releases))))))
@@ -111,7 +112,9 @@ TIME."
   (fold :or
         (append
          (loop for effect in (fluent-effects (outline-ground outline) fluent kind nil)
-               collect (shift-formula (effect-formula effect) time))
+               when (>= (+ time (formula-start (effect-guard effect)))
+                        (outline-first-time outline))
+                 collect (shift-formula (effect-formula effect) time))
          (and (outline-dated-p outline)
               (loop for effect in (gethash time (dated-effects
                                                  (outline-dated-until outline time)))
@@ -203,27 +206,35 @@ are pending."
 
 ;;; Released fluents
 
+(defun apply-change (step next change begin proposition)
+  "Let CHANGE, which began at BEGIN where PROPOSITION is true, set its fluent in NEXT.  Return true
+if the fluent is open and PROPOSITION not simply true."
+  (let ((fluent (gradual-change-fluent change)) (values (state-values next)))
+    (cond ((gradual-change-term change)
+           (apply-numeric-change step next change begin proposition)
+           nil)
+          ((not (eq (svref values fluent) :open))
+           (require-condition step (gradual-change-axiom change)
+                              (z3:implication proposition (svref values fluent)))
+           nil)
+          ((eq proposition t) (setf (svref values fluent) t) nil)
+          (t t))))
+
 (defun apply-changes (step next)
-  "Let trajectories set open fluents of NEXT; return a list of (fluent . proposition) for those that
-one sets only where the proposition is true."
+  "Let trajectories set open fluents of NEXT; return a list of (fluent axiom . proposition) for those
+that one sets only where the proposition is true."
   (let ((end (state-time next)) (partial '()) (outline (step-outline step)))
     (loop for (change begin going) in (due-changes step)
-          for fluent = (gradual-change-fluent change)
+          for axiom = (gradual-change-axiom change)
           do (if (early-change-p change begin end)
                  (let ((proposition (z3:conjunction
                                      (list going
                                            (evaluate step (gradual-change-guard change)
                                                      (change-begin change begin))))))
-                   (cond ((null proposition))
-                         ((not (eq (svref (state-values next) fluent) :open))
-                          (require-condition step (gradual-change-axiom change)
-                                             (z3:implication proposition
-                                                             (svref (state-values next) fluent))))
-                         ((eq proposition t) (setf (svref (state-values next) fluent) t))
-                         (t (push (cons fluent proposition) partial))))
+                   (when (and proposition (apply-change step next change begin proposition))
+                     (push (list* (gradual-change-fluent change) axiom proposition) partial)))
                  (let ((formula (change-formula outline change begin)))
-                   (push (list* (max end (formula-end outline formula))
-                                (gradual-change-axiom change) formula)
+                   (push (list* (max end (formula-end outline formula)) axiom formula)
                          (step-pending step)))))
     partial))
 
@@ -250,8 +261,8 @@ and PARTIAL are what SET-FLUENTS and APPLY-CHANGES return."
                               (mapcar #'demand-formula (svref demands-of fluent)))
                             :fluent))
       (setf (svref values fluent) (open-atom step :fluent fluent time)))
-    (loop for (fluent . proposition) in partial
-          do (require-condition step nil (z3:implication proposition (svref values fluent))))))
+    (loop for (fluent axiom . proposition) in partial
+          do (require-condition step axiom (z3:implication proposition (svref values fluent))))))
 
 ;;; Judging
 
@@ -359,10 +370,14 @@ UNDETERMINED if the theory leaves something open and the state has no Z3 context
                            :values (copy-seq (state-values state))
                            :released (if (outline-loose-fluents outline)
                                          (copy-seq (state-released state))
-                                         (state-released state))))
+                                         (state-released state))
+                           :numbers (copy-seq (state-numbers state))
+                           :loose-numbers (copy-seq (state-loose-numbers state))))
          (mixed (set-fluents step next turns)))
     (setf (step-next step) next)
+    (set-numbers step next events)
     (close-open-fluents step next mixed (apply-changes step next))
+    (close-open-numbers step next)
     (when (outline-exclusions outline) (require-exclusions step events))
     (judge-step step events)
     (judge-changed-fluents step next)
@@ -371,4 +386,6 @@ UNDETERMINED if the theory leaves something open and the state has no Z3 context
     (judge-dated step (state-time next))
     (setf (state-predicates next) (resolve-predicates step))
     (judge-pending step next)
+    (setf (state-determined-p next)
+          (and (state-determined-p state) (not (step-opened-p step))))
     (values next (nreverse (step-conditions step)))))

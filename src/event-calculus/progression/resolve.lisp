@@ -22,7 +22,9 @@ the events given."
   (next-predicates nil :type (or null hash-table))
   ;; (axiom . proposition), latest first, and what is to be added to the pending list
   (conditions '() :type list)
-  (pending '() :type list))
+  (pending '() :type list)
+  ;; whether a variable was opened
+  (opened-p nil :type boolean))
 
 (declaim (inline step-outline step-time))
 (defun step-outline (step)
@@ -36,6 +38,8 @@ the events given."
     (push (cons axiom proposition) (step-conditions step))))
 
 (defun open-atom (step kind number time)
+  "Return the variable for an atom that the theory leaves open."
+  (setf (step-opened-p step) t)
   (fresh-variable (state-context (step-state step)) (step-outline step) kind number time))
 
 (defun state-at (step time)
@@ -117,9 +121,9 @@ enter it into TABLE."
              (if (alternatives-ahead-p (step-outline step) alternatives time (step-time step))
                  (setf (gethash number table)
                        (leave-pending step kind number time alternatives))
-                 (resolve-now step table kind number time alternatives)))))))
+                 (resolve-now step table number time alternatives)))))))
 
-(defun resolve-now (step table kind number time alternatives)
+(defun resolve-now (step table number time alternatives)
   (setf (gethash number table) :in-work)
   (let* ((value (alternatives-value step alternatives time))
          (meanwhile (gethash number table)))
@@ -209,7 +213,8 @@ enter it into TABLE."
         (:predicate (predicate-at step (second formula) (+ base (the fixnum (third formula)))))
         (:released (svref (state-released (state-at step (+ base (the fixnum (third formula)))))
                           (second formula)))
-        (:static (static-value step (second formula))))))
+        (:static (static-value step (second formula)))
+        (:compare (evaluate-comparison step formula base)))))
 
 (defun holds (formula states &optional event)
   "Return the proposition that the ground FORMULA is true in the list STATES, which follow each other:

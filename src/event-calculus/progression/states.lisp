@@ -18,6 +18,10 @@
   (values #() :type simple-vector)
   ;; for each fluent the proposition that it is released
   (released #() :type simple-vector)
+  ;; for each numeric fluent its number, a rational or a term, and the proposition that it is
+  ;; released
+  (numbers #() :type simple-vector)
+  (loose-numbers #() :type simple-vector)
   ;; the propositions of the timeless atoms, the same for all states that follow each other
   (statics #() :type simple-vector :read-only t)
   (predecessor nil :type (or null state) :read-only t)
@@ -28,7 +32,9 @@
   ;; a table from numbers to the propositions of predicates at the time of the predecessor
   (predicates nil :type (or null hash-table))
   ;; (due axiom . ground formula) with timepoints: what can be judged at the timepoint DUE only
-  (pending '() :type list))
+  (pending '() :type list)
+  ;; whether no variable was opened here or in a predecessor
+  (determined-p t :type boolean))
 
 (defun state-ground (state)
   "Return the ground theory of a state."
@@ -41,6 +47,12 @@ theory does not say (:time first last)."
       "Return the Z3 context of a state, or NIL: where variables for what is open come from."
       (documentation 'state-predecessor 'function)
       "Return the state before a state, or NIL if it is an initial one."
+      (documentation 'state-determined-p 'function)
+      "Return true if the propositions of the initial state determine those of a state: nothing was
+left open in between."
+      (documentation 'state-numbers 'function)
+      "Return the vector of the numbers of a state, rationals or real terms of Z3, in the order of the
+ground numeric fluents."
       (documentation 'state-values 'function)
       "Return the vector of the propositions of a state, in the order of the ground fluents.")
 
@@ -53,6 +65,15 @@ theory does not say (:time first last)."
   "Return the proposition of the ground fluent ATOM, a list of symbols, in STATE.  Signals
 UNKNOWN-ATOM."
   (svref (state-values state) (find-fluent (state-ground state) atom)))
+
+(defun number-value (state atom)
+  "Return the number of the ground numeric fluent ATOM, a list of symbols, in STATE: a rational or a
+real term of Z3.  Signals UNKNOWN-ATOM."
+  (let ((ground (state-ground state)))
+    (svref (state-numbers state)
+           (or (gethash (atom-keywords atom) (ground-theory-numeric-index ground))
+               (error 'unknown-atom :atom atom :kind "numeric fluent"
+                                    :theory (theory-name (ground-theory-theory ground)))))))
 
 (defun state-fluents (state)
   "Return the list of the ground fluents that are simply true in STATE, in the theory's order."
@@ -89,6 +110,58 @@ horizon that ends with STATE; see STATE-LIMITS."
             (and (ground-theory-absolute-clauses (outline-ground outline))
                  (dated-limits outline (state-time state))))))
 
+;;; Models of states
+
+(defun state-propositions (state)
+  "Return the list of all propositions of STATE, those of the fluents first: whether fluents hold,
+are released, and timeless atoms are true, and which events happened just before."
+  (append (coerce (state-values state) 'list)
+          (coerce (state-released state) 'list)
+          (coerce (state-loose-numbers state) 'list)
+          (coerce (state-statics state) 'list)
+          (mapcar #'cdr (state-events state))))
+
+(defun state-in-model (state value-of &optional predecessor)
+  "Return STATE with the truth values and numbers that the function VALUE-OF returns for its terms,
+and no Z3 context.  PREDECESSOR is what the same made of the predecessor of STATE."
+  (flet ((value (proposition)
+           (if (z3:term-p proposition) (funcall value-of proposition) proposition)))
+    (make-state :outline (state-outline state) :time (state-time state) :predecessor predecessor
+                :values (map 'simple-vector #'value (state-values state))
+                :released (map 'simple-vector #'value (state-released state))
+                :numbers (map 'simple-vector #'value (state-numbers state))
+                :loose-numbers (map 'simple-vector #'value (state-loose-numbers state))
+                :statics (map 'simple-vector #'value (state-statics state))
+                :events (loop for (number . proposition) in (state-events state)
+                              when (value proposition) collect (cons number t))
+                :turns (loop for (cause . propositions) in (state-turns state)
+                             collect (cons cause (mapcar #'value propositions)))
+                :predicates (and (state-predicates state)
+                                 (let ((table (make-hash-table)))
+                                   (maphash (lambda (number proposition)
+                                              (setf (gethash number table) (value proposition)))
+                                            (state-predicates state))
+                                   table))
+                :pending (state-pending state))))
+
+(defun same-propositions-p (p q)
+  (every (lambda (p q) (or (eql p q) (z3:term-equal p q))) p q))
+
+(defun same-future-p (state other)
+  "Return true if what can follow STATE, of the same chain of initial state and theory, can follow
+OTHER: their propositions are the same and the theory does not look further back."
+  (and (eql (state-time state) (state-time other))
+       (or (not (outline-memory-p (state-outline state)))
+           (and (eq (state-predecessor state) (state-predecessor other))
+                (equal (mapcar #'car (state-events state)) (mapcar #'car (state-events other)))
+                (same-propositions-p (mapcar #'cdr (state-events state))
+                                     (mapcar #'cdr (state-events other)))))
+       (same-propositions-p (state-values state) (state-values other))
+       (same-propositions-p (state-released state) (state-released other))
+       (same-propositions-p (state-numbers state) (state-numbers other))
+       (same-propositions-p (state-loose-numbers state) (state-loose-numbers other))
+       (equal (state-pending state) (state-pending other))))
+
 ;;; Variables
 
 (defun fresh-variable (context outline kind number time)
@@ -97,6 +170,7 @@ Signals UNDETERMINED if there is no context."
   (let* ((ground (outline-ground outline))
          (atom (ecase kind
                  ((:fluent :released) (svref (ground-theory-fluents ground) number))
+                 ((:number :number-released) (svref (ground-theory-numerics ground) number))
                  (:event (svref (ground-theory-events ground) number))
                  (:predicate (aref (atom-table-atoms (ground-theory-predicates ground)) number))
                  (:static (aref (atom-table-atoms (ground-theory-statics ground)) number)))))
@@ -107,7 +181,8 @@ Signals UNDETERMINED if there is no context."
     ;; a letter or ends with a digit.
     (z3:variable context
                  (format nil "~:[~(~a~) ~;~*~]~a~@[ at ~d~]" (eq kind :fluent) kind
-                         (atom-text atom) (if (eq kind :static) nil time)))))
+                         (atom-text atom) (if (eq kind :static) nil time))
+                 (if (eq kind :number) (z3:real-sort context) (z3:boolean-sort context)))))
 
 ;;; Initial states
 
@@ -136,23 +211,41 @@ Signals UNDETERMINED if there is no context."
         (setf (svref statics number)
               (fresh-variable context outline :static number nil))))))
 
-(defun make-initial-state (ground context values)
-  (let ((outline (ground-outline ground)))
+(defun initial-numbers (outline context number-of)
+  (let ((numeric -1))
+    (map 'simple-vector
+         (lambda (atom)
+           (incf numeric)
+           (if number-of
+               (funcall number-of atom)
+               (fresh-variable context outline :number numeric (outline-first-time outline))))
+         (ground-theory-numerics (outline-ground outline)))))
+
+(defun make-initial-state (ground context values &optional number-of)
+  (let* ((outline (ground-outline ground))
+         (numbers (initial-numbers outline context number-of)))
     (make-state :outline outline :context context :time (outline-first-time outline)
                 :values values :released (initial-released outline context)
+                :numbers numbers
+                :loose-numbers (make-array (length numbers) :initial-element nil)
                 :statics (initial-statics outline context))))
 
 (defun symbolic-state (ground context)
   "Return the initial state of GROUND in which each fluent is a new variable in the Z3 CONTEXT, named
-by the fluent's text."
+by the fluent's text; numeric fluents have real variables."
   (make-initial-state ground context
                       (map 'simple-vector (lambda (atom) (z3:variable context (atom-text atom)))
                            (ground-theory-fluents ground))))
 
-(defun concrete-state (ground value-of &key context)
+(defun concrete-state (ground value-of &key context number-of)
   "Return the initial state of GROUND in which the fluent ATOM has the proposition that the function
-VALUE-OF returns for it.  CONTEXT is where variables for what is left open later come from, by
-default that of the propositions.  Signals UNDETERMINED if the theory leaves open whether a fluent is
-released or a timeless atom is true, and there is no context."
+VALUE-OF returns for it, and the numeric fluent ATOM the rational or real term that the function
+NUMBER-OF returns, by default a variable.  CONTEXT is where variables for what is left open come
+from, by default that of the propositions.  Signals UNDETERMINED if the theory leaves something open,
+whether a fluent is released, a timeless atom is true, or a number, and there is no context."
   (let ((values (map 'simple-vector value-of (ground-theory-fluents ground))))
-    (make-initial-state ground (or context (context-of values)) values)))
+    (make-initial-state ground (or context (context-of values)) values number-of)))
+
+(defun ground-numeric-p (ground)
+  "Return true if the theory of GROUND has numeric fluents."
+  (plusp (length (ground-theory-numerics ground))))

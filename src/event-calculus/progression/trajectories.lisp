@@ -65,9 +65,11 @@ proposition), where the proposition says that the change began at BEGIN and was 
   (if (gradual-change-time change) 0 begin))
 
 (defun early-change-p (change begin end)
-  "Return true if the guard of CHANGE is known before the timepoint END is."
-  (let ((reach (formula-reach (gradual-change-guard change))))
-    (or (null reach) (< (+ reach (change-begin change begin)) end))))
+  "Return true if guard and term of CHANGE are known before the timepoint END is."
+  (loop for formula in (list (gradual-change-guard change)
+                             (list :compare := 0 (gradual-change-term change)))
+        for reach = (formula-reach formula)
+        always (or (null reach) (< (+ reach (change-begin change begin)) end))))
 
 (defun change-formula (outline change begin)
   "Return the axiom of CHANGE, for BEGIN, as a ground formula with timepoints."
@@ -78,7 +80,7 @@ proposition), where the proposition says that the change began at BEGIN and was 
                                                 (if trajectory :initiates :terminates) begin))
                      (fold-not (shift-formula (gradual-change-guard change)
                                               (change-begin change begin)))
-                     (list :fluent (gradual-change-fluent change) end)
+                     (changed-formula change begin)
                      (loop for time from (1+ begin) below end
                            collect (effects-formula outline cause
                                                     (if trajectory :terminates :initiates)

@@ -39,8 +39,8 @@ about, a keyword."
 
 (defun fact-clause-p (clause)
   "Return true if CLAUSE, (axiom kind condition head), is part of the narrative or a fact."
-  (destructuring-bind (axiom kind condition head) clause
-    (declare (ignore condition))
+  (destructuring-bind (axiom kind condition head &rest heads) clause
+    (declare (ignore condition heads))
     (or (eq (axiom-label axiom) +facts+)
         (and (eq kind :sentence) (null (free-variables head))))))
 
