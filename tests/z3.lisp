@@ -196,16 +196,6 @@
     (is (= 2 (z3:check-count context)))
     (is (plusp (z3:check-seconds context)))))
 
-(test solver-text
-  (with-z3 (context solver)
-    (z3:solver-assert solver (z3:disjunction (list (z3:variable context "holds (box r1) 0")
-                                                   (z3:variable context "λ"))))
-    (is (string= "(declare-fun |λ| () Bool)
-(declare-fun |holds (box r1) 0| () Bool)
-(assert (or |holds (box r1) 0| |λ|))
-"
-                 (z3:solver-smt-lib solver)))))
-
 ;;; Unknown
 
 (test unknown-is-a-condition
@@ -248,7 +238,8 @@
   (z3:with-context (context)
     (handler-case (progn (z3:make-solver context :logic "NO_SUCH_LOGIC") (fail "It was made."))
       (z3:z3-error (condition)
-        (is (eq :exception (z3:z3-error-code condition)))
+        ;; The code depends on the version.
+        (is (member (z3:z3-error-code condition) '(:exception :invalid-argument)))
         (is (string= "Z3: logic 'NO_SUCH_LOGIC' is not recognized."
                      (princ-to-string condition)))))
     (is (z3:term-p (z3:variable context "usable afterwards")))))

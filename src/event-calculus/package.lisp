@@ -54,6 +54,6 @@ them and why, and what they say of a state after known events.")
    #:event-calculus-error #:theory-error #:theory-error-theory #:theory-error-axiom
    #:theory-not-found #:state-constraint-not-found #:unknown-atom
    #:no-horizon #:no-horizon-theory #:no-horizon-horizon
-   #:outside-horizon #:outside-horizon-time #:outside-horizon-horizon #:outside-horizon-event
+   #:outside-horizon #:outside-horizon-time #:outside-horizon-horizon #:outside-horizon-event #:closed-reasoner #:closed-reasoner-theory
    #:undetermined #:undetermined-atom #:undetermined-kind #:undetermined-time
    #:undetermined-theory))

@@ -12,8 +12,12 @@ Event Calculus Reasoner, others hold define-theory."
         (ec:load-e-theory file)
         (ec:load-theory file))))
 
-(defun horizon-option (options)
+(defun horizon-option (theory options)
+  "Return the value of --horizon in OPTIONS, which THEORY may need."
   (let ((last (getf options :horizon)))
+    (unless (or last (ec:theory-time-range theory))
+      (usage-problem "Theory ~a says nothing of timepoints: give the last one by --horizon."
+                     (ec:name-text (ec:theory-name theory))))
     (when (and last (minusp last))
       (usage-problem "--horizon takes a timepoint, not ~d." last))
     last))
@@ -26,7 +30,7 @@ Event Calculus Reasoner, others hold define-theory."
   (let* ((theory (theory-file-argument arguments "reason"))
          (limit (if (getf options :all) nil 10)))
     (multiple-value-bind (models complete)
-        (ec:models theory :limit limit :horizon (horizon-option options))
+        (ec:models theory :limit limit :horizon (horizon-option theory options))
       (ec:print-e-models models *standard-output*)
       (unless complete
         (format *error-output* "There are more models; --all prints them.~%"))))
@@ -37,6 +41,6 @@ Event Calculus Reasoner, others hold define-theory."
      "Say what looks wrong in a theory: contradictions, axioms and events that do nothing."
      (("horizon") :type integer :documentation "last timepoint (the theory's own, or 3)"))
   (let* ((theory (theory-file-argument arguments "check-theory"))
-         (findings (ec:check-theory theory :horizon (horizon-option options))))
+         (findings (ec:check-theory theory :horizon (getf options :horizon))))
     (format t "~{~a~%~}~d finding~:p~%" findings (length findings))
     (if (find :note findings :key #'ec:finding-severity :test-not #'eq) 1 0)))

@@ -4,7 +4,7 @@
 ;;;; TERM for each of their parts would take seconds.  A CLAUSE-SET numbers the variables instead:
 ;;;; 1, 2, 3, ...  A LITERAL is a fixnum, +N for the variable N and -N for its negation, and a
 ;;;; clause is the literals of a vector up to a 0, as in the DIMACS format.  The clause set holds
-;;;; the addresses of its literals in one vector, so that a clause costs two calls of Z3 and no
+;;;; the addresses of its literals in one vector, so that a clause costs a few calls of Z3 and no
 ;;;; memory in Lisp.
 ;;;;
 ;;;; Entry points: MAKE-CLAUSE-SET, ASSERT-CLAUSES, CHECK-LITERALS, LITERAL-VALUES.  What is
@@ -163,11 +163,11 @@ longest clause."
 
 (defun clause-set-term (clause-set literal)
   "Return the TERM for LITERAL, a fixnum and not 0, of CLAUSE-SET.  Signals Z3-ERROR."
-  (let ((context (solver-context (clause-set-solver clause-set))))
-    (let ((handle (literal-handle clause-set literal)))
-      (if (plusp literal)
-          (making-term (pointer context t) handle)
-          (negation (clause-set-term clause-set (- literal)))))))
+  (let ((context (solver-context (clause-set-solver clause-set)))
+        (handle (literal-handle clause-set literal)))
+    (if (plusp literal)
+        (making-term (pointer context t) handle)
+        (negation (clause-set-term clause-set (- literal))))))
 
 ;;; Assertions
 
@@ -275,9 +275,10 @@ does."
          (bits (make-array (1+ size) :element-type 'bit :initial-element 0))
          (value (make-handles 1)))
     (declare (type (unsigned-byte 64) model) (type (unsigned-byte 32) size))
-    (unless (every (lambda (variable) (typep variable `(integer 1 ,size))) variables)
-      (misuse :index-out-of-bounds "~a is no variable of the clause set"
-              (find-if-not (lambda (variable) (typep variable `(integer 1 ,size))) variables)))
+    (map nil (lambda (variable)
+               (unless (and (typep variable 'fixnum) (<= 1 variable size))
+                 (misuse :index-out-of-bounds "~s is no variable of the clause set" variable)))
+         variables)
     (flet ((read-from (pointer true variable)
              (declare (type (unsigned-byte 64) pointer true) (type (unsigned-byte 32) variable))
              (let ((handle (aref handles (* 2 variable))))

@@ -98,8 +98,8 @@ propositions, and cannot tell where numbers occur.  A check ends after TIMEOUT s
 time (a positive real, or NIL for no limit).  The search starts from SEED, a natural number, or from
 Z3's own if it is NIL; the same calls in a new context with the same seed give the same answers and
 models.  OPTIONS is an alist from names of options of Z3's engine to natural numbers, double floats,
-T, NIL, or words as strings.  Signals Z3-ERROR, e.g. for an unknown LOGIC; an unknown option is found out by the first
-assertion or check."
+T, NIL, or words as strings.  Signals Z3-ERROR, e.g. for an unknown LOGIC; an unknown option is
+found out by the first assertion or check."
   (check-type logic (or null string))
   (check-type timeout (or null (real (0))))
   (check-type seed (or null (unsigned-byte 32)))

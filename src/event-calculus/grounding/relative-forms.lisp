@@ -84,6 +84,8 @@ where they are beyond the horizon."
                       (dolist (part (rest form)) (check-term part bound)))
                      ((or (< 1 (count :time (rest (assoc (first form)
                                                          (theory-predicates theory)))))
+                          (and (assoc (first form) (theory-extensions theory))
+                               (member :time (argument-sorts theory form)))
                           (and bound (member (first form) '(:stopped-in :started-in :clipped
                                                             :declipped))))
                       (fail))

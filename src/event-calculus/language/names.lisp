@@ -16,17 +16,22 @@
                      (not (graphic-char-p character))))
                string)))
 
+(defvar *exact-names* nil
+  "True if names are to be shown by their characters, as .e files have them.")
+
 (defun name-text (name)
   "Return the text for NAME, a symbol: in lower case if that can be read back."
   (let ((string (symbol-name name)))
-    (if (plain-name-p string)
-        (string-downcase string)
-        (with-output-to-string (stream)
-          (write-char #\| stream)
-          (loop for character across string
-                do (when (find character "|\\") (write-char #\\ stream))
-                   (write-char character stream))
-          (write-char #\| stream)))))
+    (cond
+      (*exact-names* string)
+      ((plain-name-p string) (string-downcase string))
+      (t
+       (with-output-to-string (stream)
+         (write-char #\| stream)
+         (loop for character across string
+               do (when (find character "|\\") (write-char #\\ stream))
+                  (write-char character stream))
+         (write-char #\| stream))))))
 
 (defun term-text (term)
   (etypecase term

@@ -3,8 +3,7 @@
 ;;;; (happens (load) 0), (implies (and (holds-at ?fluent ?time1) (< ?time1 ?time2)) ...) and their
 ;;;; kin are made ground for a horizon that lies far beyond the states so far.  An instance counts as
 ;;;; soon as the last timepoint that it speaks of is reached: its formula is final then.  One that
-;;;; speaks of all timepoints to come is never looked at, and what DATED-LIMITS returns says so: it
-;;;; compares the instances with those for the horizon that ends now.
+;;;; speaks of all timepoints to come is never looked at, and what DATED-LIMITS returns says so.
 ;;;;
 ;;;; Trajectories are made ground again here if the range of their offsets grows with the horizon.
 
@@ -100,7 +99,7 @@ sentences."
                                   collect (cons (due-time outline sentence) sentence))
                             #'< :key #'car)
           for formula = (sentence-formula sentence)
-          do (setf (gethash (instance-key sentence) (dated-formulas dated)) (list formula due (sentence-axiom sentence)))
+          do (setf (gethash (instance-key sentence) (dated-formulas dated)) (list formula due))
              (unless (gethash formula seen)
                (setf (gethash formula seen) t)
                (push (sentence-demand outline sentence)
@@ -135,14 +134,17 @@ sentences."
                       (enter-support dated kind index time position (length labels) support))))))
    (sentence-formula sentence)))
 
+(defun dated-supports-at (outline time)
+  "Return what has supports at TIME only: a list of (kind number supports*)."
+  (and (outline-dated-p outline)
+       (values (gethash time (dated-supports (outline-dated-until outline time))))))
+
 (defun dated-alternatives (outline kind number time)
   "Return the supports that the atom of KIND with NUMBER has at TIME only, a list for each of its
 completions."
-  (and (outline-dated-p outline)
-       (loop for (other-kind other-number . alternatives)
-               in (gethash time (dated-supports (outline-dated-until outline time)))
-             when (and (eq kind other-kind) (eql number other-number))
-               return alternatives)))
+  (loop for (other-kind other-number . alternatives) in (dated-supports-at outline time)
+        when (and (eq kind other-kind) (eql number other-number))
+          return alternatives))
 
 (defun enter-effects (outline dated ground)
   (flet ((enter (vector table)
@@ -173,6 +175,12 @@ completions."
                 (trajectory-clauses (ground-theory-theory ground))))
        t))
 
+(defun dated-sentences (outline)
+  "Return the dated sentences of OUTLINE for some horizon."
+  (and (outline-dated-p outline)
+       (nth-value 1 (ground-until (outline-ground outline) (dated-horizon (outline-dated outline))
+                                  (dated-clauses (outline-ground outline))))))
+
 (defun outline-dated-until (outline time)
   "Return the dated instances of OUTLINE for a horizon far beyond TIME."
   (let* ((first (outline-first-time outline))
@@ -185,35 +193,42 @@ completions."
 
 ;;; Exactness
 
-(defun differing-axioms (outline dated time)
-  "Return the axioms whose instances for a horizon that ends at TIME are not those of DATED that
-are due by then."
-  (let ((axioms '())
+(defun open-ended-p (outline time due)
+  "Return true if what is DUE, seen from TIME, is so only because the horizon of the dated instances
+ends somewhere: it speaks of all timepoints to come."
+  (and (outline-dated-p outline)
+       (> (* 2 due) (+ time (cdr (dated-horizon (outline-dated-until outline time)))))))
+
+(defun compare-instances (outline dated time)
+  "Return the axioms of those instances for a horizon that ends at TIME that are never due, and true
+if the others are those of DATED that are due by then."
+  (let ((endless '()) (same t)
         (formulas (make-hash-table :test 'equal))
         (ground (outline-ground outline)))
     (dolist (sentence (nth-value 1 (ground-until ground (cons (outline-first-time outline) time)
                                                  (dated-clauses ground))))
-      (setf (gethash (instance-key sentence) formulas) sentence))
-    (loop for key being the hash-keys of formulas using (hash-value sentence)
-          do (destructuring-bind (&optional formula (due time due-p) &rest rest)
-                 (gethash key (dated-formulas dated))
-               (declare (ignore rest))
-               (unless (and due-p (<= due time) (equal formula (sentence-formula sentence)))
-                 (pushnew (sentence-axiom sentence) axioms))))
+      (let ((key (instance-key sentence)))
+        (setf (gethash key formulas) t)
+        (destructuring-bind (formula &optional (due most-positive-fixnum))
+            (gethash key (dated-formulas dated) '(nil))
+          (cond ((and (< due most-positive-fixnum) (open-ended-p outline time due))
+                 (pushnew (sentence-axiom sentence) endless))
+                ((not (and (<= due time) (equal formula (sentence-formula sentence))))
+                 (setf same nil))))))
     (loop for key being the hash-keys of (dated-formulas dated) using (hash-value value)
-          do (destructuring-bind (formula due axiom) value
-               (declare (ignore formula))
-               (unless (or (> due time) (gethash key formulas))
-                 (pushnew axiom axioms))))
-    axioms))
+          do (unless (or (> (second value) time) (gethash key formulas))
+               (setf same nil)))
+    (values endless same)))
 
 (defun dated-limits (outline time)
   "Return the limits, (axiom . reason), of what is known at TIME of the axioms that compare
-timepoints."
-  (let ((dated (outline-dated-until outline time)))
-    (multiple-value-bind (limits known) (gethash time (dated-limits-of dated))
-      (if known
-          limits
-          (setf (gethash time (dated-limits-of dated))
-                (loop for axiom in (differing-axioms outline dated time)
-                      collect (cons axiom "what it says depends on which timepoint is the last")))))))
+timepoints, and true if but for these the instances for a horizon that ends at TIME are judged."
+  (let* ((dated (outline-dated-until outline time))
+         (entry (or (gethash time (dated-limits-of dated))
+                    (setf (gethash time (dated-limits-of dated))
+                          (multiple-value-bind (endless same)
+                              (compare-instances outline dated time)
+                            (cons same
+                                  (loop for axiom in endless
+                                        collect (cons axiom *to-come*))))))))
+    (values (cdr entry) (car entry))))

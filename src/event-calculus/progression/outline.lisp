@@ -8,6 +8,9 @@
 
 (in-package #:discrepancy-finder.event-calculus)
 
+(defparameter *to-come* "it speaks of all timepoints to come"
+  "Why an axiom is never judged.")
+
 (defstruct (demand (:copier nil))
   "That FORMULA is true at each timepoint; it looks at timepoints up to the distance LAST.  AXIOM is
 the axiom behind it, or the exclusion, a list.  FLUENTS are the numbers of the fluents in it."
@@ -50,8 +53,10 @@ the axiom behind it, or the exclusion, a list.  FLUENTS are the numbers of the f
   (other-demands '() :type list)
   ;; (axiom :mutex or :xor . numbers) of events, the axiom as in demands, NUMBERS T for all
   (exclusions '() :type list)
-  ;; what is not exact whatever happens: a list of (axiom . reason)
+  ;; what is never judged: a list of (axiom . reason)
   (limits '() :type list)
+  ;; whether sentences are judged later than they end, when the events of that timepoint are known
+  (late-p nil :type boolean)
   ;; whether anything looks at more than the latest state and the events after it
   (memory-p nil :type boolean)
   ;; the instances of the axioms that compare timepoints or name them by number; see dated.lisp
@@ -146,7 +151,7 @@ one of them happens; or NIL if there are none."
           (t (dolist (fluent (demand-fluents demand))
                (push demand (svref (outline-state-demands-of outline) fluent)))))))
 
-;;; What need not be checked
+;;; What need not be judged
 
 (defun disjuncts (formula)
   (if (and (consp formula) (eq (first formula) :or)) (rest formula) (list formula)))
@@ -196,51 +201,59 @@ NAMES holds."
 
 ;;; Timeless atoms
 
-(defun static-supports (ground label index)
-  "Return the formula that some sentence supports the timeless atom INDEX, and true if that is
-known: if no such sentence speaks of a timepoint."
-  (let ((pairs (gethash index (supports ground :static label))))
-    (values (fold :or (mapcar #'support-formula (atom-supports :static index pairs)))
-            (and (loop for (sentence) in pairs
-                       never (formula-reach (sentence-formula sentence)))
-                 (loop with name = (first (aref (atom-table-atoms (ground-theory-statics ground))
-                                                index))
-                       for (axiom) in (ground-theory-absolute-clauses ground)
-                       never (mentions-name-p (axiom-formula axiom) name))))))
+(defun timeless-p (theory sentence)
+  "Return true if neither the formula of SENTENCE nor its bindings depend on the time."
+  (and (null (formula-reach (sentence-formula sentence)))
+       (loop for (variable) in (sentence-bindings sentence)
+             never (eq (variable-sort theory variable) :time))))
 
-(defun mentions-name-p (form name)
-  (if (consp form)
-      (some (lambda (part) (mentions-name-p part name)) form)
-      (eq form name)))
+(defun completion-demand (theory atom index pairs)
+  "Return the demand that the timeless ATOM with number INDEX is true only if one of PAIRS, (sentence
+. distance), supports it; or NIL if these depend on the time."
+  (when (loop for (sentence) in pairs always (timeless-p theory sentence))
+    (make-demand :axiom (list :completion (first atom))
+                 :formula (fold :or (cons (list :not (list :static index))
+                                          (mapcar #'support-formula
+                                                  (atom-supports :static index pairs)))))))
 
-(defun add-static-demands (outline)
-  "Add to OUTLINE what must be true of the timeless atoms; find out what follows of them at once."
-  (let* ((ground (outline-ground outline))
+(defun static-demands (outline sentences)
+  "Return what SENTENCES, all those of the theory of OUTLINE, and the completions say of timeless
+atoms; note the completions that depend on the time as limits."
+  (let* ((ground (copy-structure (outline-ground outline)))
          (theory (ground-theory-theory ground))
          (atoms (atom-table-atoms (ground-theory-statics ground)))
-         (statics (make-array (length atoms) :initial-element :open)))
-    (loop for sentence in (ground-theory-sentences ground)
-          when (and (sentence-absolute sentence) (null (formula-reach (sentence-formula sentence))))
-            do (push (sentence-demand outline sentence)
-                     (outline-static-demands outline)))
+         (tables (make-hash-table :test 'eq))
+         (demands (loop for sentence in sentences
+                        when (timeless-p theory sentence)
+                          collect (sentence-demand outline sentence))))
+    (setf (ground-theory-sentences ground) sentences)
     (loop for atom across atoms
           for index from 0
           do (dolist (label (completion-labels theory (first atom)))
-               (multiple-value-bind (formula known) (static-supports ground label index)
-                 (if known
-                     (push (make-demand :axiom (list :completion (first atom))
-                                        :formula (fold :or (list (list :not (list :static index))
-                                                                 formula)))
-                           (outline-static-demands outline))
-                     (pushnew (cons (list :completion (first atom))
-                                    "the completion of a timeless predicate depends on all timepoints")
+               (let ((demand (completion-demand
+                              theory atom index
+                              (gethash index
+                                       (or (gethash label tables)
+                                           (setf (gethash label tables)
+                                                 (supports ground :static label)))))))
+                 (if demand
+                     (push demand demands)
+                     (pushnew (cons (list :completion (first atom)) *to-come*)
                               (outline-limits outline) :test #'equal)))))
-    (setf (outline-statics outline) statics)
+    demands))
+
+(defun set-statics (outline)
+  "Find out what is known of the timeless atoms, and what else must be true of them."
+  (let* ((ground (outline-ground outline))
+         (demands (static-demands outline (append (ground-theory-sentences ground)
+                                                  (dated-sentences outline))))
+         (statics (make-array (length (atom-table-atoms (ground-theory-statics ground)))
+                              :initial-element :open)))
     (settle statics (loop for index below (length statics) collect index)
-            (let ((formulas (mapcar #'demand-formula (outline-static-demands outline))))
-              (constantly formulas))
+            (constantly (mapcar #'demand-formula demands))
             :static)
-    outline))
+    (setf (outline-statics outline) statics
+          (outline-static-demands outline) demands)))
 
 ;;; The whole
 
@@ -285,12 +298,6 @@ release, and which are causes of trajectories."
                    (outline-influences outline)))
          t)))
 
-(defun note-late-demands (outline demand sentence)
-  (when (> (effective-last outline sentence) (sentence-last sentence))
-    (push (cons (demand-axiom demand)
-                "it is judged when the events of its last timepoint are known")
-          (outline-limits outline))))
-
 (defun compute-outline (ground)
   (let ((outline (make-empty-outline ground)))
     (multiple-value-bind (equated used)
@@ -301,13 +308,14 @@ release, and which are causes of trajectories."
         (unless (or (sentence-absolute sentence) (member sentence used)
                     (provided-p outline sentence))
           (let ((demand (sentence-demand outline sentence)))
-            (note-late-demands outline demand sentence)
+            (when (> (effective-last outline sentence) (sentence-last sentence))
+              (setf (outline-late-p outline) t))
             (file-demand outline demand))))
       (add-exclusions outline)
-      (add-static-demands outline)
       (set-release outline ground)
       (when (outline-dated-p outline)
         (outline-dated-until outline (outline-first-time outline)))
+      (set-statics outline)
       (setf (outline-memory-p outline) (looks-back-p outline))
       (map nil (lambda (effects) (note-numeric-limits outline effects))
            (ground-theory-effects-on-numeric ground))

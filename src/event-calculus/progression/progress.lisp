@@ -24,11 +24,8 @@
                    (push (cons number proposition) events))))))
       (dolist (number (step-given step)) (try number))
       (loop for number being the hash-keys of (outline-events outline) do (try number))
-      (when (outline-dated-p outline)
-        (loop for (kind number) in (gethash (step-time step)
-                                            (dated-supports
-                                             (outline-dated-until outline (step-time step))))
-              when (eq kind :event) do (try number))))
+      (loop for (kind number) in (dated-supports-at outline (step-time step))
+            when (eq kind :event) do (try number)))
     (nreverse events)))
 
 (defun require-exclusions (step events)
@@ -339,12 +336,13 @@ INITIALLY axioms and its sentences about single timepoints.  The axiom is an AXI
     (nreverse (step-conditions step))))
 
 (defun resolve-predicates (step)
-  "Return a table of the predicates with definitions at the time of STEP."
-  (let ((definitions (outline-predicates (step-outline step))))
-    (unless (zerop (hash-table-count definitions))
-      (loop for number being the hash-keys of definitions
-            do (predicate-at step number (step-time step)))
-      (step-predicates step))))
+  "Return a table of the predicates that have supports at the time of STEP, or NIL."
+  (let ((outline (step-outline step)) (time (step-time step)))
+    (loop for number being the hash-keys of (outline-predicates outline)
+          do (predicate-at step number time))
+    (loop for (kind number) in (dated-supports-at outline time)
+          when (eq kind :predicate) do (predicate-at step number time))
+    (step-predicates step)))
 
 (defun cause-turns (outline turns)
   (and (outline-causes outline)

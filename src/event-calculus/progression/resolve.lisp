@@ -158,7 +158,8 @@ enter it into TABLE."
                 (null (predicate-labels (outline-ground outline) number)))
            (open-atom step :predicate number time))
           ((< time now)
-           (values (gethash number (state-predicates (state-at step (1+ time))))))
+           (let ((table (state-predicates (state-at step (1+ time)))))
+             (and table (values (gethash number table)))))
           ((= time now)
            (resolve step
                     (or (step-predicates step) (setf (step-predicates step) (make-hash-table)))

@@ -89,26 +89,30 @@ real term of Z3.  Signals UNKNOWN-ATOM."
 ;;; Exactness
 
 (defun state-limits (state)
-  "Return what the propositions and conditions of STATE and its predecessors do not say although
-the theory does: a list of (axiom . reason), where the axiom is an AXIOM or (:completion predicate)
-and the reason a string.  Without limits the theory allows just what the conditions allow; with
-limits it may allow less, never more."
-  (remove-duplicates
-   (append (state-static-limits state)
-           (loop for (nil axiom) in (state-pending state)
-                 collect (cons axiom "it depends on timepoints to come")))
-   :test #'equal))
+  "Return what conditions never say although the theory does, as far as STATE and its predecessors
+go: a list of (axiom . reason), where the axiom is an AXIOM, (:completion predicate) or NIL and the
+reason a string.  Without limits the theory allows what the conditions allow; with limits it may allow
+less, never more."
+  (let ((outline (state-outline state)) (time (state-time state)))
+    (remove-duplicates
+     (append (outline-limits outline)
+             (and (ground-theory-absolute-clauses (outline-ground outline))
+                  (values (dated-limits outline time)))
+             (loop for (due axiom) in (state-pending state)
+                   when (open-ended-p outline time due)
+                     collect (cons axiom *to-come*)))
+     :test #'equal)))
 
 (defun state-exact-p (state)
-  "Return true if the conditions of STATE and its predecessors say all that the theory says of a
-horizon that ends with STATE; see STATE-LIMITS."
-  (null (state-limits state)))
-
-(defun state-static-limits (state)
+  "Return true if the conditions of STATE and its predecessors say all that the bounded engine says
+of a horizon that ends with STATE: there are no limits, and nothing is to be judged later that the
+end of the horizon would decide."
   (let ((outline (state-outline state)))
-    (append (outline-limits outline)
-            (and (ground-theory-absolute-clauses (outline-ground outline))
-                 (dated-limits outline (state-time state))))))
+    (and (null (state-limits state))
+         (null (state-pending state))
+         (not (outline-late-p outline))
+         (or (null (ground-theory-absolute-clauses (outline-ground outline)))
+             (nth-value 1 (dated-limits outline (state-time state)))))))
 
 ;;; Models of states
 

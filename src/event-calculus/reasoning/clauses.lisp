@@ -56,6 +56,8 @@ sentence, the effect, the number of the fluent, ....  CODE is that of the select
   (thing nil :read-only t)
   (code 0 :type fixnum :read-only t)
   (template nil :type template :read-only t)
+  ;; the timepoint of what is not an instance of a template for all timepoints, or NIL
+  (date nil :type (or null fixnum) :read-only t)
   (start 0 :type fixnum)
   (end 0 :type fixnum))
 
@@ -81,6 +83,7 @@ fluents, auxiliary ones."
   (template nil :type (or null template))
   (once nil :type boolean)
   (selector nil :type (or null fixnum))
+  (date nil :type (or null fixnum))
   ;; the code of an atom taken as false
   (falsified nil :type (or null fixnum)))
 
@@ -120,6 +123,7 @@ fluents, auxiliary ones."
         (encoder-once encoder) once)
   (if (encoder-tracked encoder)
       (let ((source (make-source :kind kind :thing thing :code (new-code encoder)
+                                 :date (and once (encoder-date encoder))
                                  :template template :start (fill-pointer
                                                             (template-literals template)))))
         (setf (encoder-selector encoder) (source-code source))

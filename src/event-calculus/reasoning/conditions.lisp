@@ -16,3 +16,10 @@
                    (format stream "Timepoint ~d lies outside of the horizon ~d to ~d."
                            time (car horizon) (cdr horizon))))))
   (:documentation "Signaled when a question names a timepoint about which a reasoner says nothing."))
+
+(define-condition closed-reasoner (event-calculus-error)
+  ((theory :initarg :theory :reader closed-reasoner-theory :documentation "The theory's name."))
+  (:report (lambda (condition stream)
+             (format stream "The reasoner of theory ~a is closed."
+                     (name-text (closed-reasoner-theory condition)))))
+  (:documentation "Signaled when a reasoner is asked after CLOSE-REASONER."))

@@ -100,7 +100,7 @@ holds is consistent."
         (setf (gethash selector wanted) t))
       (map-reasons (lambda (source time selector)
                      (when (gethash selector wanted)
-                       (push (make-ground-reason source time selector
+                       (push (make-ground-reason source (or (source-date source) time) selector
                                                  (source-clauses (reasoner-encoder reasoner) source
                                                                  time selector))
                              reasons)))

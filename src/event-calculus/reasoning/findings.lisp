@@ -329,7 +329,8 @@ an axiom gives by number.  Signals THEORY-NOT-FOUND, NO-HORIZON."
          (horizon (check-horizon theory (or horizon (if (theory-time-range theory)
                                                            nil
                                                            (default-horizon theory)))))
-         (*horizon* horizon))
+         (*horizon* horizon)
+         (*exact-names* (eq (theory-syntax theory) :e)))
     (if (not (consistent-p theory :horizon horizon))
         (inconsistency theory horizon)
         (let ((ground (general-ground-theory theory)))

@@ -136,7 +136,8 @@ found a model."
 
 (defun map-models (function reasoner limit minimize &key (complete t))
   "Call FUNCTION with the values and the numbers of each model, LIMIT (or NIL) at most.  Return true
-if there are no more; with COMPLETE false it is not tried to find out after LIMIT models.  Models that differ in numbers only are one."
+if there are no more; with COMPLETE false it is not tried to find out after LIMIT models.  MINIMIZE is
+:ALL for all models, or a list of variables for those that are minimal in them.  Models that differ in numbers only are one."
   (let ((clause-set (reasoner-clause-set reasoner))
         (variables (atom-variables reasoner))
         (count 0))
@@ -148,13 +149,13 @@ if there are no more; with COMPLETE false it is not tried to find out after LIMI
       (when (eql count limit)
         (return nil))
       (multiple-value-bind (values numbers) (current-values reasoner)
-        (when minimize
+        (when (listp minimize)
           (multiple-value-setq (values numbers)
             (minimal-values reasoner values numbers minimize)))
         (incf count)
         (funcall (the function function) values numbers)
         (z3:assert-clauses clause-set
-                           (if minimize
+                           (if (listp minimize)
                                (excluding-clause values minimize)
                                (blocking-clause values variables)))))))
 
@@ -220,10 +221,11 @@ only one model is returned for each set of their true atoms of which no part wou
                                                 (reasoner-encoder reasoner) values numbers)
                                     models))
                             reasoner limit
-                            (and minimize
-                                 (minimized-variables
-                                  reasoner
-                                  (minimized-predicates (reasoner-theory reasoner) minimize)))
+                            (if minimize
+                                (minimized-variables
+                                 reasoner
+                                 (minimized-predicates (reasoner-theory reasoner) minimize))
+                                :all)
                             :complete complete))))
         (values (nreverse models) complete)))))
 
@@ -237,5 +239,5 @@ arguments are those of MODELS.  Signals THEORY-ERROR, NO-HORIZON."
                         (map-models (lambda (values numbers)
                                       (declare (ignore values numbers))
                                       (incf count))
-                                    reasoner limit nil))))
+                                    reasoner limit :all))))
         (values count complete)))))

@@ -28,7 +28,7 @@ the theory is consistent, so that what one event initiates no other can terminat
 
 (defun assumed-reason-p (reason)
   (let ((axiom (reason-axiom reason)))
-    (and axiom (eq (axiom-name axiom) :assumption))))
+    (and axiom (eq (axiom-name axiom) +assumption+))))
 
 (defun silent-p (narration literal)
   "Return true if LITERAL goes without saying."

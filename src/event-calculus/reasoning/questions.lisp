@@ -26,6 +26,14 @@ term of a propositional variable."
                               code)))))))
       (convert formula))))
 
+(defun constant-time (term)
+  "Return the integer that TERM is, as one or as arithmetic of such, or NIL."
+  (cond ((integerp term) term)
+        ((and (consp term) (member (first term) '(:+ :- :*)))
+         (let ((parts (mapcar #'constant-time (rest term))))
+           (and (every #'identity parts)
+                (fold-arithmetic (first term) parts))))))
+
 (defun map-question-times (function theory form)
   "Call FUNCTION with each timepoint that FORM, a checked question, gives by number, and the event
 that is to happen then, or NIL."
@@ -34,8 +42,9 @@ that is to happen then, or NIL."
                (loop for term in (rest form)
                      for sort in (or (argument-sorts theory form) (mapcar (constantly nil)
                                                                           (rest form)))
-                     do (if (and (eq sort :time) (integerp term))
-                            (funcall (the function function) term
+                     for time = (and (eq sort :time) (constant-time term))
+                     do (if time
+                            (funcall (the function function) time
                                      (and (eq (first form) :happens) (second form)))
                             (look term))))))
     (look form)))

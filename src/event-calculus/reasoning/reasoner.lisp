@@ -16,6 +16,7 @@ CLOSE-REASONER."
   (context nil :type z3:context :read-only t)
   (solver nil)
   (clause-set nil)
+  (closed nil :type boolean)
   ;; for each propositional variable whether it occurs in a clause
   (occurring (make-array 64 :element-type 'bit :initial-element 0) :type simple-bit-vector)
   ;; for each propositional variable whether unit propagation has fixed it
@@ -52,8 +53,9 @@ CLOSE-REASONER."
          (range (typecase horizon
                   (null own)
                   (integer (cons (if own (car own) 0) horizon))
-                  (cons (cons (car horizon)
-                              (if (consp (cdr horizon)) (cadr horizon) (cdr horizon)))))))
+                  (cons (if (and (consp (cdr horizon)) (null (cddr horizon)))
+                            (cons (first horizon) (second horizon))
+                            horizon)))))
     (unless (and range (integerp (car range)) (integerp (cdr range)) (<= (car range) (cdr range)))
       (error 'no-horizon :theory (theory-name theory) :horizon horizon))
     range))
@@ -62,15 +64,34 @@ CLOSE-REASONER."
   "Options of Z3's engine for finite domains: to simplify the clauses takes longer than most questions
 do, so it is put off until after so many conflicts.")
 
+(defconstant +assumption+ :|(:assumption)|
+  "The name of the axiom that stands for an assumption, which no theory can give.")
+
 (defun assumed-sentences (ground forms horizon)
   "Return FORMS, checked formulas with timepoints by number, as sentences."
   (loop for form in forms
-        collect (make-sentence :axiom (make-axiom :name :assumption :formula form)
+        collect (make-sentence :axiom (make-axiom :name +assumption+ :formula form)
                                :formula (ground-formula ground form :horizon horizon)
                                :first (car horizon) :last (cdr horizon) :absolute t)))
 
+(defun horizon-dependent-p (theory)
+  "Return true if atoms or distances of THEORY depend on the horizon."
+  (flet ((dependent-p (declaration) (intersection '(:time :offset) (rest declaration))))
+    (or (some #'dependent-p (append (theory-fluents theory) (theory-events theory)
+                                    (theory-numeric-fluents theory)))
+        (and (null (theory-offset-range theory))
+             (some (lambda (axiom)
+                     (some (lambda (variable) (eq (variable-sort theory variable) :offset))
+                           (free-variables (axiom-formula axiom))))
+                   (theory-axioms theory))))))
+
 (defun build (reasoner)
   "Encode the theory of REASONER for its horizon, with a new solver."
+  (when (horizon-dependent-p (reasoner-theory reasoner))
+    (let ((*horizon* (reasoner-horizon reasoner)) (theory (reasoner-theory reasoner)))
+      (clrhash (theory-elements theory))
+      (clrhash (theory-element-tables theory))
+      (setf (reasoner-ground reasoner) (ground theory))))
   (let ((ground (ground-for-horizon (reasoner-ground reasoner) (reasoner-horizon reasoner)))
         (*horizon* (reasoner-horizon reasoner)))
     (when (reasoner-solver reasoner)
@@ -139,8 +160,13 @@ NO-HORIZON, THEORY-ERROR."
            (setf done t))
       (unless done (z3:close-context context)))))
 
+(defun check-open (reasoner)
+  (when (reasoner-closed reasoner)
+    (error 'closed-reasoner :theory (theory-name (reasoner-theory reasoner)))))
+
 (defun close-reasoner (reasoner)
   "Release what REASONER holds of Z3; do nothing if that was done before."
+  (setf (reasoner-closed reasoner) t)
   (z3:close-context (reasoner-context reasoner))
   (values))
 
@@ -155,7 +181,8 @@ and closed at the end; return the values of BODY."
 (defun incremental-p (reasoner)
   "Return true if the clauses of a longer horizon include those of a shorter one."
   (let ((encoder (reasoner-encoder reasoner)))
-    (and (null (ground-theory-absolute-clauses (reasoner-ground reasoner)))
+    (and (not (horizon-dependent-p (reasoner-theory reasoner)))
+         (null (ground-theory-absolute-clauses (reasoner-ground reasoner)))
          (zerop (fill-pointer (template-literals (encoder-absolute encoder)))))))
 
 (defun extend-horizon (reasoner last)
@@ -165,6 +192,7 @@ no axiom compares timepoints or names them by number; else it is made anew."
          (old (cdr horizon))
          (new (cons (car horizon) last)))
     (check-type last integer)
+    (check-open reasoner)
     (check-horizon (reasoner-theory reasoner) new)
     (unless (= last old)
       (let ((incremental (and (> last old) (reasoner-encoder reasoner) (incremental-p reasoner)))
@@ -183,8 +211,11 @@ no axiom compares timepoints or names them by number; else it is made anew."
 (defun call-with-reasoner (function theory options)
   (if (reasoner-p theory)
       (let ((horizon (getf options :horizon)))
+        (check-open theory)
         (when horizon
-          (extend-horizon theory (cdr (check-horizon (reasoner-theory theory) horizon))))
+          (let ((asked (check-horizon (reasoner-theory theory) horizon)))
+            (unless (equal asked (reasoner-horizon theory))
+              (error 'outside-horizon :time (cdr asked) :horizon (reasoner-horizon theory)))))
         (unless (reasoner-encoder theory)
           (build theory))
         (funcall (the function function) theory))

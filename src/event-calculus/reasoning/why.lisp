@@ -7,13 +7,14 @@
 
 (in-package #:discrepancy-finder.event-calculus)
 
-(defstruct (explanation (:constructor make-explanation (theory question core sentences))
+(defstruct (explanation (:constructor make-explanation (theory question core sentences axioms))
                         (:copier nil))
   "Why FORMULA must or cannot be true: made by WHY and WHY-IMPOSSIBLE."
   (theory nil :type theory :read-only t)
   (question nil :type string :read-only t)
   (core '() :type list :read-only t)
-  (sentences '() :type list :read-only t))
+  (sentences '() :type list :read-only t)
+  (axioms '() :type list :read-only t))
 
 (setf (documentation 'explanation-core 'function)
       "Return the minimal set of instances that an explanation rests on: a list of (name instance).
@@ -23,18 +24,13 @@ NAME is that of an axiom, or :inertia, :release, :not-released, :begin, :stop, :
       "Return the list of the sentences, strings, that an explanation derives its claim by; NIL if
 that takes a distinction of cases.")
 
+(setf (documentation 'explanation-axioms 'function)
+      "Return the list of the names of the theory's axioms that an explanation rests on.")
+
 (defmethod print-object ((explanation explanation) stream)
   (print-unreadable-object (explanation stream :type t)
     (format stream "~a: ~d instance~:p" (explanation-question explanation)
             (length (explanation-core explanation)))))
-
-(defun explanation-axioms (explanation)
-  "Return the list of the names of the theory's axioms that EXPLANATION rests on."
-  (remove-duplicates
-   (loop for (name) in (explanation-core explanation)
-         unless (member name '(:inertia :numeric-inertia :release :not-released :number-not-released :begin :stop :completion :exclusion))
-           collect name)
-   :from-end t))
 
 (defun question-literal (reasoner form)
   "Return the propositional literal of the formula FORM, with timepoints by number, or NIL if it is
@@ -82,6 +78,18 @@ to a contradiction, after which comes CONCLUSION."
                           (format nil "an effect to which ~a refers"
                                   (axiom-words (sentence-axiom thing))))))))
 
+(defun core-axioms (core)
+  "Return the names of the axioms of the reasons CORE, and of the effects to which they refer."
+  (remove-duplicates
+   (loop for reason in core
+         for axiom = (reason-axiom reason)
+         for thing = (source-thing (ground-reason-source reason))
+         unless (assumed-reason-p reason)
+           append (append (and axiom (list (axiom-name axiom)))
+                          (and (sentence-p thing)
+                               (mapcar #'axiom-name (sentence-definitions thing)))))
+   :from-end t))
+
 (defun explain (theory question assumption claim supposition horizon)
   "Return the explanation why the formula ASSUMPTION is impossible, by deriving CLAIM, if any."
   (let ((horizon (check-horizon (as-theory theory)
@@ -100,7 +108,8 @@ to a contradiction, after which comes CONCLUSION."
                                     append (definition-entries reason))
                               :test #'equal :from-end t)
            (explanation-sentences-of reasoner core claim supposition
-                                     (format nil "So ~a." question))))))))
+                                     (format nil "So ~a." question))
+           (core-axioms core)))))))
 
 (defun as-theory (theory)
   (check-type theory (or theory reasoner symbol))
