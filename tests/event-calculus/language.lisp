@@ -216,7 +216,7 @@
                                        (or (opens ?shop ?time) (opens ?shop (- ?time 1)))))
                          (:time 0 3))
     (holds-at (open bakery) 1) (not (holds-at (open bank) 1)) (holds-at (open bakery) 2)
-    (holds-at (open bank) 3) (not (holds-at (open bakery) 3)) (not (holds-at (open bank) 0))))
+    (holds-at (open bank) 3) (not (holds-at (open bakery) 3))))
 
 (test variables-over-fluents-and-events
   (let ((theory (inline-theory
