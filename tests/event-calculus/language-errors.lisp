@@ -114,9 +114,7 @@ contains PARTS."
   (malformed (":predicates" "((name sort ...) (element ...) ...)")
              (:sorts (place hall)) (:predicates ((near place place) hall hall)))
   (malformed (":predicates" "near is declared twice")
-             (:sorts (place hall)) (:predicates ((near place) (hall)) (near place)))
-  (malformed (":completion" "near" "table")
-             (:sorts (place hall)) (:predicates ((near place) (hall))) (:completion near)))
+             (:sorts (place hall)) (:predicates ((near place) (hall)) (near place))))
 
 (test malformed-declarations
   (malformed (":fluents" "(lit lamp)" "there is no sort lamp") (:fluents (lit lamp)))

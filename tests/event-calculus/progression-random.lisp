@@ -180,16 +180,6 @@ which the engines differ.  A theory that is malformed is :MALFORMED."
 
 ;;; Tests
 
-(test engines-agree-on-the-scenarios
-  "A theory with a narrative of its own: its events happen without being given."
-  (let ((results '()))
-    (dolist (file (directory (root-file "tests/theories/*.lisp")))
-      (let ((result (compare-engines-on-file (namestring file))))
-        (is (not (stringp result)) "~a: ~a" (pathname-name file) result)
-        (push result results)))
-    ;; Most are exact, so that the comparison says something.
-    (is (<= 25 (count :exact results)) "~a" results)))
-
 (test engines-agree-on-random-theories
   (let ((exact 0) (seeds (if *long* 1500 150)))
     (loop for seed from 1 to seeds

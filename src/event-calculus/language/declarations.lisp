@@ -157,9 +157,12 @@
                             (name-text predicate))))))))
 
 (defun check-extensions (theory)
-  (loop for (name . tuples) in (theory-extensions theory)
+  (loop for ((name . tuples) . others) on (theory-extensions theory)
         for sorts = (rest (assoc name (theory-predicates theory)))
-        do (dolist (tuple tuples)
+        do (when (assoc name others)
+             (theory-problem theory ":predicates" nil "~a is given as two tables"
+                             (name-text name)))
+           (dolist (tuple tuples)
              (unless (and (= (length tuple) (length sorts))
                           (loop for element in tuple
                                 for sort in sorts
