@@ -142,9 +142,11 @@ The environment variable CXX names another compiler than g++."))
                              (:file "findings")))
                (:module "progression"
                 :serial t
-                :components ((:file "definitions") (:file "settle") (:file "outline")
-                             (:file "dated") (:file "states") (:file "resolve")
-                             (:file "trajectories") (:file "numbers") (:file "progress")))
+                :components ((:file "formulas") (:file "definitions") (:file "settle")
+                             (:file "outline") (:file "dated") (:file "outlining")
+                             (:file "states") (:file "initial-states") (:file "resolve")
+                             (:file "trajectories") (:file "numbers") (:file "turns")
+                             (:file "successors") (:file "progress")))
                (:module "e-files"
                 :serial t
                 :components ((:file "conditions") (:file "tokens") (:file "expressions")
@@ -287,7 +289,7 @@ The environment variable CXX names another compiler than g++."))
                (:module "symbolic-execution"
                 :serial t
                 :components ((:file "evaluator") (:file "exploration") (:file "parallel")
-                             (:file "table")))
+                             (:file "table") (:file "open-theories")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")

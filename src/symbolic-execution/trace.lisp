@@ -1,11 +1,11 @@
 ;;;; Execution traces: what a plan does to the world, according to the theory.
 ;;;;
 ;;;; An EXECUTION-TRACE has a concrete initial state, the steps that the plan performs from it, and
-;;;; the states that follow by the theory.  It is made from a path on which a state constraint comes
-;;;; true, cut after the last timepoint at which it does; the path may go on to a failure, or to
-;;;; where the theory allows nothing.  The initial state is the least that the path allows, with
-;;;; false before true in the order of the fluents: a function of the path alone.  So are the states
-;;;; that follow, where the theory leaves a choice.
+;;;; the states that follow by the theory.  It is made from a path on which a state constraint
+;;;; comes true, cut after the last timepoint at which it does; the path may go on to a failure, or
+;;;; to where the theory allows nothing.  The initial state is the least that the path allows, with
+;;;; false before true in the order of the fluents: a function of the path alone.  So are the
+;;;; states that follow, where the theory leaves a choice.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -68,32 +68,44 @@ its assertions."
         do (z3:solver-assert solver (if value proposition (z3:negation proposition)))
         collect value))
 
+(defun fix-numbers (solver numbers)
+  "Add to the assertions of SOLVER values for the terms among NUMBERS, one after the other: 0 where
+that is allowed, else what Z3 finds first."
+  (dolist (number numbers)
+    (when (z3:term-p number)
+      (let ((zero (z3:equals number 0)))
+        (if (eq (z3:check solver (list zero)) :sat)
+            (z3:solver-assert solver zero)
+            (let ((value (progn (z3:check solver) (z3:model-value solver number))))
+              (when (rationalp value)
+                (z3:solver-assert solver (z3:equals number value)))))))))
+
 (defun least-states (solver states)
   "Return STATES, which follow each other, with truth values for their propositions: the least that
 SOLVER allows, the earlier state first."
-  (let ((initial (first states)) (concrete '()))
-    (least-values solver (ec:state-propositions initial))
-    ;; Where the theory leaves nothing open the initial state has settled the rest.
-    (unless (every #'ec:state-determined-p states)
-      (dolist (state (rest states))
-        (least-values solver (ec:state-propositions state))))
+  (let ((concrete '()))
+    (dolist (state states)
+      (least-values solver (ec:state-propositions state))
+      (fix-numbers solver (coerce (ec:state-numbers state) 'list))
+      ;; Where the theory leaves nothing open the initial state has settled the rest.
+      (when (every #'ec:state-determined-p states)
+        (return)))
     (z3:check solver)
     (dolist (state states (nreverse concrete))
-      (push (ec:state-in-model state
-                               (lambda (proposition) (z3:model-value solver proposition))
+      (push (ec:state-in-model state (lambda (term) (z3:model-value solver term))
                                (first concrete))
             concrete))))
 
 (defun make-path-solver (context ground)
-  "Return a solver for paths of the theory GROUND.  Its questions are many and small: Z3's engine for
-QF_UF, which keeps what it has learnt, is some ten times faster there than the one for QF_FD."
+  "Return a solver for paths of the theory GROUND.  Its questions are many and small: Z3's engine
+for QF_UF, which keeps what it has learnt, is some ten times faster there than the one for QF_FD."
   (z3:make-solver context :logic (if (ec:ground-numeric-p ground) nil "QF_UF")))
 
 (defun states-along (ground fluents steps)
-  "Return the concrete states of the theory GROUND along STEPS from the state in which just FLUENTS, a
-list of ground fluents, hold: the least ones, in the order of time and of the fluents, that the theory
-allows.  If it allows none return NIL and the number of the first step that it forbids, counted from
-1, or 0 if it forbids the first state."
+  "Return the concrete states of the theory GROUND along STEPS from the state in which just
+FLUENTS, a list of ground fluents, hold: the least ones, in the order of time and of the fluents,
+that the theory allows.  If it allows none return NIL and the number of the first step that it
+forbids, counted from 1, or 0 if it forbids the first state."
   (z3:with-context (context)
     (let* ((solver (make-path-solver context ground))
            (state (ec:concrete-state ground

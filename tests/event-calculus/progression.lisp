@@ -68,7 +68,7 @@ of events, and true if the conditions are."
         (let* ((state (ec:symbolic-state ground context))
                (next (ec:progress state nil))
                (fan (ec:fluent-value next '(fan))))
-          (is-true (z3:term-p fan) "a trigger that depends on the initial state is a guarded effect")
+          (is-true (z3:term-p fan) "what depends on the initial state is a guarded effect")
           (is (eq :unsat (z3:check solver (list (ec:fluent-value state '(hot)) (z3:negation fan)))))
           (is (eq :sat (z3:check solver (list (z3:negation fan)))))
           (is-true (ec:state-determined-p next)))))))

@@ -1,9 +1,10 @@
 ;;;; Axioms that compare timepoints or name them by number: their instances by time.
 ;;;;
 ;;;; (happens (load) 0), (implies (and (holds-at ?fluent ?time1) (< ?time1 ?time2)) ...) and their
-;;;; kin are made ground for a horizon that lies far beyond the states so far.  An instance counts as
-;;;; soon as the last timepoint that it speaks of is reached: its formula is final then.  One that
-;;;; speaks of all timepoints to come is never looked at, and what DATED-LIMITS returns says so.
+;;;; kin are made ground for a horizon that lies far beyond the states so far.  An instance counts
+;;;; as soon as the last timepoint that it speaks of is reached: its formula is final then.  One
+;;;; that speaks of all timepoints to come is never looked at, and what DATED-LIMITS returns says
+;;;; so.
 ;;;;
 ;;;; Trajectories are made ground again here if the range of their offsets grows with the horizon.
 
@@ -13,8 +14,8 @@
   "The instances for the timepoints HORIZON of the axioms that OUTLINE does without."
   (horizon nil :type cons :read-only t)
   ;; tables from timepoints: the demands that are due then; the effects of events then, also those
-  ;; on numbers; the supports of events and predicates then, each (kind number supports*) with one list of supports
-  ;; for each completion
+  ;; on numbers; the supports of events and predicates then, each (kind number supports*) with one
+  ;; list of supports for each completion
   (demands (make-hash-table) :type hash-table :read-only t)
   (effects (make-hash-table) :type hash-table :read-only t)
   (numeric-effects (make-hash-table) :type hash-table :read-only t)
@@ -185,23 +186,23 @@ completions."
   "Return the dated instances of OUTLINE for a horizon far beyond TIME."
   (let* ((first (outline-first-time outline))
          (dated (outline-dated outline))
-         (last (+ first 16 (* 2 (- time first)))))
+         (last (+ first 8 (* 2 (- time first)))))
     (if (and dated (>= (cdr (dated-horizon dated)) last))
         dated
         (setf (outline-dated outline)
-              (compute-dated outline (cons first (+ last (- last first))))))))
+              (compute-dated outline (cons first (if dated (+ last (- last first)) last)))))))
 
 ;;; Exactness
 
 (defun open-ended-p (outline time due)
-  "Return true if what is DUE, seen from TIME, is so only because the horizon of the dated instances
-ends somewhere: it speaks of all timepoints to come."
+  "Return true if what is DUE, seen from TIME, is so only because the horizon of the dated
+instances ends somewhere: it speaks of all timepoints to come."
   (and (outline-dated-p outline)
        (> (* 2 due) (+ time (cdr (dated-horizon (outline-dated-until outline time)))))))
 
 (defun compare-instances (outline dated time)
-  "Return the axioms of those instances for a horizon that ends at TIME that are never due, and true
-if the others are those of DATED that are due by then."
+  "Return the axioms of those instances for a horizon that ends at TIME that are never due, and
+true if the others are those of DATED that are due by then."
   (let ((endless '()) (same t)
         (formulas (make-hash-table :test 'equal))
         (ground (outline-ground outline)))

@@ -3,12 +3,13 @@
 ;;;; In progression nothing happens but the events given and those that the theory triggers.  So
 ;;;; each event that occurs positively in a sentence is completed, as completion.lisp says it:
 ;;;;   e <-> not S1[e := false] or not S2[e := false] or ...
-;;;; The right-hand side is the DEFINITION of e, each part of it a SUPPORT, whose formula is moved so
-;;;; that e itself is at distance 0.  The theory's own predicates have definitions, too: where the
-;;;; theory completes them, or where a sentence says (iff predicate formula).  What has none is open.
+;;;; The right-hand side is the DEFINITION of e, each part of it a SUPPORT, whose formula is moved
+;;;; so that e itself is at distance 0.  The theory's own predicates have definitions, too: where
+;;;; the theory completes them, or where a sentence says (iff predicate formula).  What has none is
+;;;; open.
 ;;;;
-;;;; A support that looks ahead, at a later timepoint than that of its atom, cannot be evaluated when
-;;;; it is needed; see resolve.lisp.
+;;;; A support that looks ahead, at a later timepoint than that of its atom, cannot be evaluated
+;;;; when it is needed; see resolve.lisp.
 
 (in-package #:discrepancy-finder.event-calculus)
 
@@ -22,91 +23,11 @@ spans.  AHEAD-P is true if they must all be there for it, and are not yet at the
 
 (defstruct (definition (:copier nil))
   "An atom is true just if in each of ALTERNATIVES, lists of supports, one of a completion, some
-support is.  AHEAD-P is true if a support looks ahead, EXTENT is 1 if the value depends on the events
-of the timepoint."
+support is.  AHEAD-P is true if a support looks ahead, EXTENT is 1 if the value depends on the
+events of the timepoint."
   (alternatives '() :type list :read-only t)
   (ahead-p nil :type boolean :read-only t)
   (extent 0 :type bit))
-
-;;; Formulas
-
-(defun replace-atom (formula atom value)
-  "Return the ground FORMULA with VALUE, T or NIL, for the ground atom ATOM."
-  (cond ((atom formula) formula)
-        ((equal formula atom) value)
-        (t (flet ((parts ()
-                    (mapcar (lambda (part) (replace-atom part atom value)) (rest formula))))
-             (case (first formula)
-               ((:and :or) (fold (first formula) (parts)))
-               (:not (fold-not (first (parts))))
-               (:iff (apply #'fold-iff (parts)))
-               (t formula))))))
-
-(defun map-distances (function formula)
-  "Call FUNCTION with kind and distance of all in the ground FORMULA that depends on the time; the
-kind of numbers is :VALUE."
-  (labels ((look-at-term (term)
-             (when (consp term)
-               (if (eq (first term) :value)
-                   (funcall function :value (third term))
-                   (mapc #'look-at-term (rest term))))))
-    (map-atoms (lambda (atom)
-                 (case (first atom)
-                   (:static)
-                   (:compare (mapc #'look-at-term (cddr atom)))
-                   (t (funcall function (first atom) (third atom)))))
-               formula)))
-
-(defun formula-start (formula)
-  "Return the least distance in the ground FORMULA, 0 at most."
-  (let ((start 0))
-    (map-distances (lambda (kind distance)
-                     (declare (ignore kind))
-                     (setf start (min start distance)))
-                   formula)
-    start))
-
-(defun mentions-kind-p (formula kinds)
-  "Return true if the ground FORMULA has an atom of one of KINDS."
-  (map-atoms (lambda (atom)
-               (when (member (first atom) kinds) (return-from mentions-kind-p t)))
-             formula))
-
-(defun formula-reach (formula)
-  "Return the largest distance in the ground FORMULA, NIL if it has no time."
-  (let ((reach nil))
-    (map-distances (lambda (kind distance)
-                     (declare (ignore kind))
-                     (setf reach (max distance (or reach distance))))
-                   formula)
-    reach))
-
-(defun looks-ahead-p (formula)
-  (let ((reach (formula-reach formula)))
-    (and reach (> reach 0))))
-
-(defun span-end (formula)
-  "Return the last distance that the ground FORMULA speaks of, 0 at least; an event at t ends at
-t + 1."
-  (let ((end 0))
-    (map-distances (lambda (kind distance)
-                     (setf end (max end (if (eq kind :event) (1+ distance) distance))))
-                   formula)
-    end))
-
-(defun plain-parts-first (formula)
-  "Return the ground FORMULA with the parts of conjunctions and disjunctions ordered: those without
-events and predicates first, since they are known before these."
-  (if (and (consp formula) (member (first formula) '(:and :or :not :iff)))
-      (let ((parts (mapcar #'plain-parts-first (rest formula))))
-        (cons (first formula)
-              (if (member (first formula) '(:and :or))
-                  (stable-sort parts (lambda (a b)
-                                       (and (not a) b))
-                               :key (lambda (part)
-                                      (mentions-kind-p part '(:event :predicate))))
-                  parts)))
-      formula))
 
 ;;; Supports
 
@@ -124,7 +45,8 @@ events and predicates first, since they are known before these."
           collect (new-support formula sentence distance (if (eq kind :event) 1 0))))
 
 (defun new-support (formula sentence distance duration)
-  "Return the support that FORMULA is, by SENTENCE, for an atom at DISTANCE that lasts for DURATION."
+  "Return the support that FORMULA is, by SENTENCE, for an atom at DISTANCE that lasts for
+DURATION."
   (let ((last (- (sentence-last sentence) distance)))
     (make-support :formula (plain-parts-first formula)
                   :first (min (- (sentence-first sentence) distance) (formula-start formula))

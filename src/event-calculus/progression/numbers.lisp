@@ -1,8 +1,9 @@
 ;;;; Numeric fluents in progression.
 ;;;;
-;;;; The number of a numeric fluent is a rational where it is known, else a real term of Z3.  An event
-;;;; assigns it; else it stays as it is; where it is released, by an event, it may be anything that
-;;;; trajectories and sentences allow.  Entry points: EVALUATE-COMPARISON, SET-NUMBERS.
+;;;; The number of a numeric fluent is a rational where it is known, else a real term of Z3.  An
+;;;; event assigns it; else it stays as it is; where it is released, by an event, it may be
+;;;; anything that trajectories and sentences allow.  Entry points: EVALUATE-COMPARISON,
+;;;; SET-NUMBERS.
 
 (in-package #:discrepancy-finder.event-calculus)
 
@@ -35,8 +36,8 @@ and the proposition that nothing is divided by 0 in it."
       (values (value term) (z3:conjunction defined)))))
 
 (defun evaluate-comparison (step comparison base)
-  "Return the proposition of the ground COMPARISON, (:compare operator term term); it is false where
-something is divided by 0."
+  "Return the proposition of the ground COMPARISON, (:compare operator term term); it is false
+where something is divided by 0."
   (destructuring-bind (operator left right) (rest comparison)
     (multiple-value-bind (p p-defined) (evaluate-term step left base)
       (multiple-value-bind (q q-defined) (evaluate-term step right base)
@@ -105,8 +106,8 @@ releases the number, and the proposition that nothing assigned is divided by 0."
     (and term (z3:real-sort (z3:term-context term)))))
 
 (defun set-number (step next numeric effects)
-  "Set the number NUMERIC in NEXT, and whether it is released: :OPEN where it is, and nothing else is
-known."
+  "Set the number NUMERIC in NEXT, and whether it is released: :OPEN where it is, and nothing else
+is known."
   (multiple-value-bind (assignments released sound) (number-turn step effects)
     (let* ((state (step-state step))
            (assigned (z3:disjunction (mapcar #'car assignments)))

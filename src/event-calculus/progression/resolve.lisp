@@ -99,7 +99,8 @@ are known."
                              (value (push value terms)))))))))
 
 (defun leave-pending (step kind number time alternatives)
-  "Return a variable for an atom whose definition looks ahead; that they are equivalent is pending."
+  "Return a variable for an atom whose definition looks ahead; that they are equivalent is
+pending."
   (let ((formula (fold-iff (list kind number time) (alternatives-formula alternatives time))))
     (push (list* (max (formula-end (step-outline step) formula)
                       (+ time (loop for supports in alternatives
@@ -218,9 +219,9 @@ enter it into TABLE."
         (:compare (evaluate-comparison step formula base)))))
 
 (defun holds (formula states &optional event)
-  "Return the proposition that the ground FORMULA is true in the list STATES, which follow each other:
-the states at ?time, ?time + 1, ....  EVENT is what happens after the last of them: the number of an
-event, NIL for none, or a list of numbers; events before are known to the states.  Signals
-UNDETERMINED."
+  "Return the proposition that the ground FORMULA is true in the list STATES, which follow each
+other: the states at ?time, ?time + 1, ....  EVENT is what happens after the last of them: the
+number of an event, NIL for none, or a list of numbers; events before are known to the states.
+Signals UNDETERMINED."
   (evaluate (make-step :state (first (last states)) :given (if (listp event) event (list event)))
             formula (state-time (first states))))

@@ -7,7 +7,8 @@
 (in-package #:discrepancy-finder.event-calculus)
 
 (defun truth (formula value-of)
-  "Return T, NIL or :UNKNOWN for the ground FORMULA.  The function VALUE-OF gives that for an atom."
+  "Return T, NIL or :UNKNOWN for the ground FORMULA.  The function VALUE-OF gives that for an
+atom."
   (declare (type function value-of))
   (if (atom formula)
       formula

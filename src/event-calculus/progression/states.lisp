@@ -2,11 +2,8 @@
 ;;;;
 ;;;; A STATE gives each ground fluent a proposition: T, NIL or a Z3 term over the initial state and
 ;;;; over what is left open later.  It knows its predecessor and the events in between, so that
-;;;; sentences over several timepoints can be judged.  SYMBOLIC-STATE and CONCRETE-STATE make initial
-;;;; states, PROGRESS (progress.lisp) makes the next ones.
-;;;;
-;;;; What the theory leaves open becomes a Z3 variable in the context of the state; a state without
-;;;; a context signals UNDETERMINED there.
+;;;; sentences over several timepoints can be judged.  Initial states are made in
+;;;; initial-states.lisp, the next ones by PROGRESS, in progress.lisp.
 
 (in-package #:discrepancy-finder.event-calculus)
 
@@ -41,8 +38,8 @@
   (outline-ground (state-outline state)))
 
 (setf (documentation 'state-time 'function)
-      "Return the timepoint of a state; that of an initial state is the theory's first one, 0 if the
-theory does not say (:time first last)."
+      "Return the timepoint of a state; that of an initial state is the theory's first one, 0 if
+the theory does not say (:time first last)."
       (documentation 'state-context 'function)
       "Return the Z3 context of a state, or NIL: where variables for what is open come from."
       (documentation 'state-predecessor 'function)
@@ -51,8 +48,8 @@ theory does not say (:time first last)."
       "Return true if the propositions of the initial state determine those of a state: nothing was
 left open in between."
       (documentation 'state-numbers 'function)
-      "Return the vector of the numbers of a state, rationals or real terms of Z3, in the order of the
-ground numeric fluents."
+      "Return the vector of the numbers of a state, rationals or real terms of Z3, in the order of
+the ground numeric fluents."
       (documentation 'state-values 'function)
       "Return the vector of the propositions of a state, in the order of the ground fluents.")
 
@@ -67,8 +64,8 @@ UNKNOWN-ATOM."
   (svref (state-values state) (find-fluent (state-ground state) atom)))
 
 (defun number-value (state atom)
-  "Return the number of the ground numeric fluent ATOM, a list of symbols, in STATE: a rational or a
-real term of Z3.  Signals UNKNOWN-ATOM."
+  "Return the number of the ground numeric fluent ATOM, a list of symbols, in STATE: a rational or
+a real term of Z3.  Signals UNKNOWN-ATOM."
   (let ((ground (state-ground state)))
     (svref (state-numbers state)
            (or (gethash (atom-keywords atom) (ground-theory-numeric-index ground))
@@ -91,8 +88,8 @@ real term of Z3.  Signals UNKNOWN-ATOM."
 (defun state-limits (state)
   "Return what conditions never say although the theory does, as far as STATE and its predecessors
 go: a list of (axiom . reason), where the axiom is an AXIOM, (:completion predicate) or NIL and the
-reason a string.  Without limits the theory allows what the conditions allow; with limits it may allow
-less, never more."
+reason a string.  Without limits the theory allows what the conditions allow; with limits it may
+allow less, never more."
   (let ((outline (state-outline state)) (time (state-time state)))
     (remove-duplicates
      (append (outline-limits outline)
@@ -165,91 +162,3 @@ OTHER: their propositions are the same and the theory does not look further back
        (same-propositions-p (state-numbers state) (state-numbers other))
        (same-propositions-p (state-loose-numbers state) (state-loose-numbers other))
        (equal (state-pending state) (state-pending other))))
-
-;;; Variables
-
-(defun fresh-variable (context outline kind number time)
-  "Return the Z3 variable for the atom of KIND with NUMBER at TIME, which the theory leaves open.
-Signals UNDETERMINED if there is no context."
-  (let* ((ground (outline-ground outline))
-         (atom (ecase kind
-                 ((:fluent :released) (svref (ground-theory-fluents ground) number))
-                 ((:number :number-released) (svref (ground-theory-numerics ground) number))
-                 (:event (svref (ground-theory-events ground) number))
-                 (:predicate (aref (atom-table-atoms (ground-theory-predicates ground)) number))
-                 (:static (aref (atom-table-atoms (ground-theory-statics ground)) number)))))
-    (unless context
-      (error 'undetermined :atom atom :kind kind :time (if (eq kind :static) nil time)
-                           :theory (theory-name (ground-theory-theory ground))))
-    ;; The names of fluents at the first timepoint are their texts alone; none of these begins with
-    ;; a letter or ends with a digit.
-    (z3:variable context
-                 (format nil "~:[~(~a~) ~;~*~]~a~@[ at ~d~]" (eq kind :fluent) kind
-                         (atom-text atom) (if (eq kind :static) nil time))
-                 (if (eq kind :number) (z3:real-sort context) (z3:boolean-sort context)))))
-
-;;; Initial states
-
-(defun context-of (propositions)
-  (let ((term (find-if #'z3:term-p propositions)))
-    (and term (z3:term-context term))))
-
-(defun initial-released (outline context)
-  (let ((ground (outline-ground outline)))
-    (map 'simple-vector
-         (let ((number -1))
-           (lambda (release)
-             (incf number)
-             (ecase release
-               ((nil) nil)
-               (:always t)
-               (:possibly (and (manual-release-p ground number)
-                               (fresh-variable context outline :released number
-                                               (outline-first-time outline)))))))
-         (outline-release outline))))
-
-(defun initial-statics (outline context)
-  (let ((statics (copy-seq (outline-statics outline))))
-    (dotimes (number (length statics) statics)
-      (when (eq (svref statics number) :open)
-        (setf (svref statics number)
-              (fresh-variable context outline :static number nil))))))
-
-(defun initial-numbers (outline context number-of)
-  (let ((numeric -1))
-    (map 'simple-vector
-         (lambda (atom)
-           (incf numeric)
-           (if number-of
-               (funcall number-of atom)
-               (fresh-variable context outline :number numeric (outline-first-time outline))))
-         (ground-theory-numerics (outline-ground outline)))))
-
-(defun make-initial-state (ground context values &optional number-of)
-  (let* ((outline (ground-outline ground))
-         (numbers (initial-numbers outline context number-of)))
-    (make-state :outline outline :context context :time (outline-first-time outline)
-                :values values :released (initial-released outline context)
-                :numbers numbers
-                :loose-numbers (make-array (length numbers) :initial-element nil)
-                :statics (initial-statics outline context))))
-
-(defun symbolic-state (ground context)
-  "Return the initial state of GROUND in which each fluent is a new variable in the Z3 CONTEXT, named
-by the fluent's text; numeric fluents have real variables."
-  (make-initial-state ground context
-                      (map 'simple-vector (lambda (atom) (z3:variable context (atom-text atom)))
-                           (ground-theory-fluents ground))))
-
-(defun concrete-state (ground value-of &key context number-of)
-  "Return the initial state of GROUND in which the fluent ATOM has the proposition that the function
-VALUE-OF returns for it, and the numeric fluent ATOM the rational or real term that the function
-NUMBER-OF returns, by default a variable.  CONTEXT is where variables for what is left open come
-from, by default that of the propositions.  Signals UNDETERMINED if the theory leaves something open,
-whether a fluent is released, a timeless atom is true, or a number, and there is no context."
-  (let ((values (map 'simple-vector value-of (ground-theory-fluents ground))))
-    (make-initial-state ground (or context (context-of values)) values number-of)))
-
-(defun ground-numeric-p (ground)
-  "Return true if the theory of GROUND has numeric fluents."
-  (plusp (length (ground-theory-numerics ground))))
