@@ -17,9 +17,6 @@
   "Clauses: the literals of each, then 0."
   '(simple-array fixnum (*)))
 
-(defconstant +most-variables+ (expt 2 24)
-  "The largest number of a variable.")
-
 (defconstant +chunk+ 2000
   "So many clauses are asserted between two chances to interrupt.")
 
@@ -89,7 +86,7 @@ MAKE-CLAUSE-SET has them and closed at the end; return the values of BODY."
 
 (defun ensure-size (clause-set variable)
   "Let CLAUSE-SET have room for VARIABLE."
-  (when (>= variable +most-variables+)
+  (when (>= variable +first-tracking-symbol+)
     (misuse :index-out-of-bounds "~d is too large for the number of a variable" variable))
   (let ((handles (clause-set-handles clause-set)))
     (when (> (* 2 (1+ variable)) (length handles))

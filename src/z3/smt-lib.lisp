@@ -29,12 +29,15 @@
   (asserted nil :type boolean)
   (text nil :type (or null string)))
 
-(defstruct (script (:constructor make-script (context uninterpreted elements)) (:copier nil))
+(defstruct (script (:constructor make-script (context uninterpreted elements labels))
+                   (:copier nil))
   (context nil :type context :read-only t)
   ;; The number that Z3 has for the kind of declared functions; it depends on the version.
   (uninterpreted 0 :type fixnum :read-only t)
   ;; From the address of the declaration of an element to its enumeration.
   (elements nil :type hash-table :read-only t)
+  ;; From the address of the declaration of a tracked assertion's literal to its name.
+  (labels nil :type hash-table :read-only t)
   (nodes (make-hash-table) :type hash-table)
   ;; Nodes and (:ASSERT node), in the order in which they are written, latest first.
   (items '() :type list)
@@ -73,9 +76,10 @@
                                        collect (z3-get-app-arg pointer address index))))))))
 
 (defun declaration-name (script declaration)
-  (calling-z3 (pointer (script-context script))
-    (let ((name (symbol-name-in-lisp pointer (z3-get-decl-name pointer declaration))))
-      (if (integerp name) (format nil "k!~d" name) name))))
+  (or (gethash declaration (script-labels script))
+      (calling-z3 (pointer (script-context script))
+        (let ((name (symbol-name-in-lisp pointer (z3-get-decl-name pointer declaration))))
+          (if (integerp name) (format nil "k!~d" name) name)))))
 
 (defun note-enumeration (script enumeration)
   "Choose the symbols of ENUMERATION and its elements."
@@ -219,20 +223,35 @@
           (t (format nil "QF_~:[L~;N~]~:[~;I~]~:[~;R~]A" (member :non-linear features)
                      (member :integer features) (member :real features))))))
 
-(defun start-script (context)
-  "Return an empty script for terms of CONTEXT."
-  (let ((elements (make-hash-table)))
+(defun label-name (label number)
+  "Return the name that the literal for LABEL, tracked as that NUMBER, has in a script."
+  (format nil "~a!~d"
+          (typecase label
+            (string label)
+            (symbol (string-downcase label))
+            (t "tracked"))
+          number))
+
+(defun start-script (solver)
+  "Return an empty script for what SOLVER holds."
+  (let* ((context (solver-context solver))
+         (sort (sort-pointer (boolean-sort context)))
+         (elements (make-hash-table)) (labels (make-hash-table)))
     (dolist (sort (context-sorts context))
       (dolist (constructor (sort-constructors sort))
         (setf (gethash constructor elements) sort)))
-    (make-script context
-                 (let ((sort (sort-pointer (boolean-sort context))))
-                   (calling-z3 (pointer context)
-                     (z3-get-decl-kind pointer
-                                       (z3-get-app-decl
-                                        pointer
-                                        (z3-mk-const pointer (z3-mk-int-symbol pointer 0) sort)))))
-                 elements)))
+    (calling-solver (pointer address solver)
+      (dolist (tracked (solver-tracked solver))
+        (let ((label (tracked-label tracked)))
+          (unless (term-p label)
+            (setf (gethash (z3-get-app-decl pointer (tracked-literal tracked)) labels)
+                  (label-name label (tracked-number tracked))))))
+      (make-script context
+                   (z3-get-decl-kind pointer
+                                     (z3-get-app-decl
+                                      pointer
+                                      (z3-mk-const pointer (z3-mk-int-symbol pointer 0) sort)))
+                   elements labels))))
 
 (defun recorded-assertions (solver)
   "Return the list of the addresses of the assertions of SOLVER."
@@ -245,7 +264,7 @@
 without assumptions asks: logic, declarations, the assertions in their order, and the check, which
 assumes the literals of tracked assertions.  Names keep their characters where SMT-LIB allows that;
 see smt-lib-names.lisp.  Signals Z3-ERROR."
-  (let ((script (start-script (solver-context solver))) (assumptions '()))
+  (let ((script (start-script solver)) (assumptions '()))
     (dolist (address (recorded-assertions solver))
       (let ((node (collect script address)))
         (setf (node-asserted node) t)

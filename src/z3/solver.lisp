@@ -11,10 +11,15 @@
 
 (in-package #:discrepancy-finder.z3)
 
-(defstruct (tracked (:constructor make-tracked (label literal index)) (:copier nil))
-  "A tracked assertion: the address of the literal that is assumed for it, one reference of which it
-owns, and its index in the record."
+(defconstant +first-tracking-symbol+ (expt 2 24)
+  "The integer symbols from here on name the literals of tracked assertions, those below name
+variables of clause sets.  They are used again and again, since Z3 never forgets a string.")
+
+(defstruct (tracked (:constructor make-tracked (label number literal index)) (:copier nil))
+  "A tracked assertion: how many were tracked before it, the address of the literal that is assumed
+for it, one reference of which it owns, and its index in the record."
   (label nil :type t :read-only t)
+  (number 0 :type (unsigned-byte 29) :read-only t)
   (literal 0 :type (unsigned-byte 64) :read-only t)
   (index 0 :type (unsigned-byte 32) :read-only t))
 
@@ -167,30 +172,28 @@ has them and closed at the end; return the values of BODY."
     (z3-ast-vector-push pointer record term)
     t))
 
-(defun label-text (label)
-  (typecase label
-    (string label)
-    (symbol (string-downcase label))
-    (t "tracked")))
-
 (defun assert-tracked (solver proposition label)
   "Add PROPOSITION to the current scope of SOLVER under LABEL."
   (let* ((context (solver-context solver))
-         (term (argument-pointer proposition (boolean-sort context)))
-         (literal (if (term-p label) (live-pointer label context) 0)))
+         (boolean-sort (boolean-sort context))
+         (term (argument-pointer proposition boolean-sort))
+         (given-literal (if (term-p label) (live-pointer label context) 0))
+         (last (first (solver-tracked solver)))
+         (number (if last (1+ (tracked-number last)) 0)))
     (forget-answer solver)
-    (with-encoded-text (prefix (label-text label))
-      (calling-solver (pointer address solver)
-        (let ((literal (if (zerop literal)
-                           (z3-mk-fresh-const pointer prefix (sort-pointer (boolean-sort context)))
-                           literal))
-              (index (z3-ast-vector-size pointer (solver-record solver))))
-          (z3-inc-ref pointer literal)
-          (if (assert-and-record pointer address (solver-record solver)
-                                 (z3-mk-implies pointer literal term))
-              (push (make-tracked label literal index) (solver-tracked solver))
-              (z3-set-error pointer (prog1 (z3-get-error-code pointer)
-                                      (z3-dec-ref pointer literal)))))))))
+    (calling-solver (pointer address solver)
+      (let ((literal (if (zerop given-literal)
+                         (z3-mk-const pointer
+                                      (z3-mk-int-symbol pointer (+ +first-tracking-symbol+ number))
+                                      (sort-pointer boolean-sort))
+                         given-literal))
+            (index (z3-ast-vector-size pointer (solver-record solver))))
+        (z3-inc-ref pointer literal)
+        (if (assert-and-record pointer address (solver-record solver)
+                               (z3-mk-implies pointer literal term))
+            (push (make-tracked label number literal index) (solver-tracked solver))
+            (z3-set-error pointer (prog1 (z3-get-error-code pointer)
+                                    (z3-dec-ref pointer literal))))))))
 
 (defun solver-assert (solver proposition &key track)
   "Add PROPOSITION to the current scope of SOLVER.  The model of the last check is gone then.
