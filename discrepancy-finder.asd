@@ -214,11 +214,24 @@ The environment variable CXX names another compiler than g++."))
                (:require "sb-cltl2"))
   :pathname "src/symbolic-execution/"
   :serial t
-  :components ((:file "package") (:file "conditions") (:file "actions") (:file "path")
-               (:file "scope") (:file "evaluator") (:file "functions")
-               (:file "special-operators") (:file "conditions-in-plans") (:file "perform")
-               (:file "trace")
-               (:file "exploration")))
+  :components ((:file "package") (:file "conditions")
+               (:module "actions"
+                :serial t
+                :components ((:file "action-theory") (:file "bindings") (:file "define-action")
+                             (:file "outcomes")))
+               (:module "paths"
+                :serial t
+                :components ((:file "path") (:file "decisions") (:file "journal")))
+               (:module "values"
+                :serial t
+                :components ((:file "symbolic-values")))
+               (:module "evaluator"
+                :serial t
+                :components ((:file "scope") (:file "evaluator") (:file "functions")
+                             (:file "special-operators") (:file "conditions-in-plans")))
+               (:module "exploration"
+                :serial t
+                :components ((:file "perform") (:file "trace") (:file "exploration")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
