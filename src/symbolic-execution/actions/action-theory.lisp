@@ -1,6 +1,6 @@
 ;;;; Action theories, also called domains: a theory and what designators mean in it.
 ;;;;
-;;;; An ACTION-THEORY is registered under its name; its action bindings (bindings.lisp) belong to it.
+;;;; An ACTION-THEORY is registered under its name; its action bindings belong to it.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
