@@ -221,7 +221,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "outcomes")))
                (:module "paths"
                 :serial t
-                :components ((:file "path") (:file "decisions") (:file "journal")))
+                :components ((:file "oracle") (:file "path") (:file "decisions") (:file "journal")))
                (:module "values"
                 :serial t
                 :components ((:file "symbolic-values")))
@@ -231,7 +231,9 @@ The environment variable CXX names another compiler than g++."))
                              (:file "special-operators") (:file "conditions-in-plans")))
                (:module "exploration"
                 :serial t
-                :components ((:file "perform") (:file "trace") (:file "exploration")))))
+                :components ((:file "perform") (:file "trace") (:file "arguments") (:file "least-models")
+                             (:file "states-along") (:file "traces-of-paths") (:file "orders")
+                             (:file "runs") (:file "exploration") (:file "next-trace")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."

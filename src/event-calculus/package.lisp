@@ -19,7 +19,8 @@ them and why, and what they say of a state after known events.")
    ;; formulas
    #:parse-formula #:formula-text
    ;; state constraints
-   #:define-state-constraint #:find-state-constraint #:state-constraint #:state-constraint-name
+   #:define-state-constraint #:parse-state-constraint #:find-state-constraint
+   #:state-constraint #:state-constraint-name
    #:state-constraint-formula #:state-constraint-documentation #:state-constraint-span
    #:state-constraint-theory #:theory-state-constraints #:state-constraint-p
    ;; grounding

@@ -18,12 +18,15 @@
    #:exploration-paths #:exploration-checks #:exploration-seconds #:exploration-complete-p
    #:exploration-gaps #:exploration-dead-ends #:exploration-consistent-p #:exploration-plan
    #:exploration-domain
-   #:exploration-constraint #:close-exploration
+   #:exploration-constraint #:close-exploration #:exploration-statistics #:exploration-pending
+   #:exploration-order #:exploration-seed #:stop-exploring
    ;; traces
    #:trace-initial-state #:trace-steps #:trace-states #:trace-final-state #:execution-trace
    #:trace-plan #:trace-arguments #:trace-text #:step-text #:states-along #:outcome-transition
    #:make-trace-step #:make-execution-trace
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
+   #:trace= #:trace-decisions #:trace-ending #:trace-output #:trace-decision #:taken-text
+   #:taken-choice #:taken-time
    ;; symbolic values
    #:symbolic-boolean #:symbolic-boolean-proposition
    ;; conditions
