@@ -210,8 +210,8 @@ The environment variable CXX names another compiler than g++."))
 
 (asdf:defsystem "discrepancy-finder/symbolic-execution"
   :description "Plans on all inputs at once, along the paths that a theory allows."
-  :depends-on ("discrepancy-finder/event-calculus" "discrepancy-finder/plan-language" "alexandria"
-               (:require "sb-cltl2"))
+  :depends-on ("discrepancy-finder/event-calculus" "discrepancy-finder/plan-language"
+               "discrepancy-finder/json" "alexandria" (:require "sb-cltl2"))
   :pathname "src/symbolic-execution/"
   :serial t
   :components ((:file "package") (:file "conditions")
@@ -233,7 +233,8 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "perform") (:file "trace") (:file "arguments") (:file "least-models")
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
-                             (:file "runs") (:file "exploration") (:file "next-trace")))))
+                             (:file "runs") (:file "exploration") (:file "next-trace")
+                             (:file "verification") (:file "trace-json")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."

@@ -5,6 +5,7 @@
                     (#:ec #:discrepancy-finder.event-calculus)
                     (#:plan #:discrepancy-finder.plan-language)
                     (#:source #:discrepancy-finder.source)
+                    (#:json #:discrepancy-finder.json)
                     (#:foreign #:discrepancy-finder.foreign))
   (:export
    ;; action theories: what designators mean in a theory
@@ -26,10 +27,15 @@
    #:make-trace-step #:make-execution-trace
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
    #:trace= #:trace-decisions #:trace-ending #:trace-output #:trace-decision #:taken-text
-   #:taken-choice #:taken-time
+   #:taken-choice #:taken-time #:trace-to-json #:trace-from-json
+   ;; verification
+   #:verify-plan #:verification #:verification-verdict #:verification-property
+   #:verification-counterexample #:verification-problem #:verification-bounds
+   #:verification-exploration
    ;; symbolic values
    #:symbolic-boolean #:symbolic-boolean-proposition
    ;; conditions
    #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
-   #:action-problem #:domain-not-found
+   #:action-problem #:domain-not-found #:invalid-trace #:invalid-trace-reason
+   #:file-output-refused #:file-output-refused-file #:file-output-refused-plan
    #:plan-broke #:plan-broke-plan #:plan-broke-error #:call-plan))

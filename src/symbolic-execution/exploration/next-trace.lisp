@@ -83,6 +83,7 @@
                :max-steps (exploration-max-steps exploration)
                :schedules (exploration-schedules exploration)
                :file-output (exploration-file-output exploration)
+               :keep-errors (exploration-keep-errors exploration)
                :deadline (deadline exploration)
                :jumps-left (exploration-max-jumps exploration))))
 

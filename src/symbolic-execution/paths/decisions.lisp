@@ -79,9 +79,10 @@ are EXHAUSTIVE and all but the last are impossible the last one need not be aske
 
 (defun take-option (path description options exhaustive)
   "Decide for the first of OPTIONS that is possible, note the others and return its choice."
-  (let* ((options (if (functionp options) (funcall options) options))
-         (possible (possible-options path options exhaustive))
-         (so-far (path-decisions path)))
+  (when (functionp options)
+    (setf (values options exhaustive) (funcall options)))
+  (let ((possible (possible-options path options exhaustive))
+        (so-far (path-decisions path)))
     (unless possible
       (abandon path :dead-end))
     (flet ((decision (number)
@@ -95,8 +96,8 @@ are EXHAUSTIVE and all but the last are impossible the last one need not be aske
 (defun decide (path description options &key exhaustive)
   "Return the choice of one of OPTIONS, a list of (choice . proposition), and assume its
 proposition.  The other possible ones are noted as alternatives.  OPTIONS may be a function that
-returns this list: a repetition of the decision calls it only if it must.  EXHAUSTIVE: one of the
-propositions is true in any case.  Abandons PATH if none is possible."
+returns this list and the value of EXHAUSTIVE: a repetition of the decision calls it only if it
+must.  It may ask the path's solver.  EXHAUSTIVE: one of the propositions is true in any case.  Abandons PATH if none is possible."
   (outside-the-plan (path)
     (check-deadline path)
     (let ((recorded (next-recorded path)))

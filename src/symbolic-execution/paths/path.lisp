@@ -13,7 +13,7 @@ MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries, D
 of the monotonic clock, the time.  SYMBOLIC-P is true once the run has symbolic values; with
 SCHEDULES :ALL the order in which parallel tasks take their turns is decided, too; HANDLERS are the
 condition handlers outside of the plan.  STEP-DEPTHS has for each step the number of decisions up to
-it, REPEATED is the number of those that repeat another run.  ENDING says why the run is over,
+it; with KEEP-ERRORS an error of the plan is an ending like others; REPEATED is the number of those that repeat another run.  ENDING says why the run is over,
 :ERROR if by the condition FATAL."
   (plan nil :read-only t)
   (domain nil :type action-theory :read-only t)
@@ -34,6 +34,7 @@ it, REPEATED is the number of those that repeat another run.  ENDING says why th
   (symbolic-p nil :type boolean)
   (schedules :one :type (member :one :all) :read-only t)
   (file-output nil :type boolean :read-only t)
+  (keep-errors nil :type boolean :read-only t)
   (handlers nil)
   (ending nil)
   (fatal nil))
