@@ -111,7 +111,7 @@
   (let ((exploration (explore-text "
 (def-top-level-cram-function lamp-plan (?flag)
   (let ((seen (list ?flag)))
-    (check-type (first seen) boolean)
+    (symbol-name (first seen))
     (perform (a motion (type toggling) (lamp a)))))"
                                    :constraint 'lamp-a-lit :arguments '((?flag boolean)))))
     (is (equal '((t) (nil))
@@ -309,9 +309,9 @@
   (perform (a motion (type singing))))" :constraint 'anything))
   (signals-with (symbolic:unsupported-form "LAMP-PLAN" "type for each")
     (explore-text "(def-top-level-cram-function lamp-plan (x) x)" :constraint 'anything))
-  (signals-with (symbolic:unsupported-form "only parameters of type boolean")
+  (signals-with (symbolic:unknown-argument-type "parameter x" "tuple" "lamp")
     (explore-text "(def-top-level-cram-function lamp-plan (x) x)" :constraint 'anything
-                  :arguments '((x integer)))))
+                  :arguments '((x tuple)))))
 
 (test example-1-has-one-trace
   (let* ((exploration (df:explore-plan 'discrepancy-finder-user::move-the-box :domain :two-regions))

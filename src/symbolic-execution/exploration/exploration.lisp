@@ -218,6 +218,6 @@ UNSUPPORTED-FORM."
                    :oracle (make-path-oracle
                             ground
                             :numeric (some (lambda (entry)
-                                             (and (consp entry) (numeric-type-p (second entry))))
+                                             (and (consp entry) (numeric-argument-type-p (second entry))))
                                            types)
                             :timeout solver-timeout :options solver-options))))

@@ -39,7 +39,7 @@ must be true for it."
 
 (defun shareable-p (value)
   "Return true if one run may get the VALUE that another run got: it has no parts to be changed."
-  (typep value '(or symbol number character symbolic-boolean)))
+  (typep value '(or symbol number character)))
 
 (defun recorded-step (path description)
   "Return the outcome and the state after it if the next decision of PATH's prefix is for the step

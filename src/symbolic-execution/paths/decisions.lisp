@@ -13,6 +13,12 @@
     (when (= (path-depth path) (oracle-depth oracle))
       (oracle-assume oracle proposition))))
 
+(defun possible-p (path proposition)
+  "Return true if PROPOSITION can be true on PATH, which is itself possible, or if Z3 cannot tell."
+  (cond ((eq proposition t) t)
+        ((null proposition) nil)
+        (t (not (eq (ask (path-oracle path) (list proposition)) :unsat)))))
+
 (defun possible-options (path options exhaustive)
   "Return the numbers of the OPTIONS, (choice . proposition), that are possible on PATH.  If they
 are EXHAUSTIVE and all but the last are impossible the last one need not be asked for."
