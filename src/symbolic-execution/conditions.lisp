@@ -62,6 +62,9 @@ know."))
   (:documentation "Signaled when an action binding cannot say what a designator means in its
 theory."))
 
+(defmethod source:self-explaining-p ((condition action-problem))
+  (and (action-problem-position condition) t))
+
 (define-condition domain-not-found (symbolic-execution-error)
   ((name :initarg :name :reader domain-not-found-name :documentation "The name in question."))
   (:report (lambda (condition stream)

@@ -10,9 +10,9 @@
   "A symbolic run.  Lists are in reverse order but for PREFIX, the decisions still to be repeated.
 ALTERNATIVES are such lists of decisions, the deepest first, for runs to come.
 MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries, DEADLINE, in seconds
-of the monotonic clock, the time.  SYMBOLIC-P is true once the run has symbolic values; with
-SCHEDULES :ALL the order in which parallel tasks take their turns is decided, too; HANDLERS are the
-condition handlers outside of the plan.  STEP-DEPTHS has for each step the number of decisions up to
+of the monotonic clock, the time.  SYMBOLIC-P is true once the run has symbolic values;
+INTERLEAVINGS says which orders of parallel tasks are explored; HANDLERS are the condition handlers
+outside of the plan.  STEP-DEPTHS has for each step the number of decisions up to
 it, REPEATED is the number of those that repeat another run.  ENDING says why the run is over,
 :ERROR if by the condition FATAL."
   (plan nil :read-only t)
@@ -32,7 +32,7 @@ it, REPEATED is the number of those that repeat another run.  ENDING says why th
   (jumps-left 0 :type fixnum)
   (deadline nil :type (or null double-float) :read-only t)
   (symbolic-p nil :type boolean)
-  (schedules :one :type (member :one :all) :read-only t)
+  (interleavings nil :type (member nil t :all) :read-only t)
   (file-output nil :type boolean :read-only t)
   (handlers nil)
   (ending nil)

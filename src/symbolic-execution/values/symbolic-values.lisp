@@ -13,6 +13,19 @@
   (print-unreadable-object (value stream :type t)
     (princ (symbolic-boolean-proposition value) stream)))
 
+(defun symbolic-boolean (proposition)
+  "Return the truth value of PROPOSITION: T, NIL or a symbolic boolean."
+  (cond ((z3:term-p proposition)
+         (when *path* (setf (path-symbolic-p *path*) t))
+         (make-symbolic-boolean proposition))
+        (t proposition)))
+
+(defun symbolic-element (choices)
+  "Return one of the objects of CHOICES, a list of (object . proposition): which, is decided."
+  (if (rest choices)
+      (decide *path* "an element" choices :exhaustive t)
+      (car (first choices))))
+
 (defun truth (value description)
   "Return VALUE, or T or NIL by a decision if it is symbolic."
   (if (symbolic-boolean-p value)
