@@ -217,7 +217,8 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "conditions")
                (:module "actions"
                 :serial t
-                :components ((:file "action-theory") (:file "bindings") (:file "define-action")
+                :components ((:file "action-theory") (:file "bindings") (:file "clauses")
+                             (:file "checks") (:file "define-action") (:file "returned-values")
                              (:file "outcomes")))
                (:module "paths"
                 :serial t
@@ -238,7 +239,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "special-operators") (:file "conditions-in-plans")))
                (:module "exploration"
                 :serial t
-                :components ((:file "perform") (:file "trace") (:file "arguments") (:file "least-models")
+                :components ((:file "perform") (:file "interleavings") (:file "trace")
+                             (:file "arguments") (:file "least-models")
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
                              (:file "runs") (:file "exploration") (:file "next-trace")
                              (:file "verification") (:file "trace-json")))))
@@ -312,7 +314,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "symbolic-execution"
                 :serial t
                 :components ((:file "evaluator") (:file "exploration") (:file "parallel")
-                             (:file "table") (:file "open-theories")))
+                             (:file "table") (:file "open-theories")
+                             (:file "define-action")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")

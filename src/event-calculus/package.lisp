@@ -53,6 +53,7 @@ them and why, and what they say of a state after known events.")
    #:state-propositions #:state-in-model #:same-future-p #:ground-numeric-p
    ;; conditions
    #:event-calculus-error #:theory-error #:theory-error-theory #:theory-error-axiom
+   #:theory-error-reason
    #:theory-not-found #:state-constraint-not-found #:unknown-atom
    #:no-horizon #:no-horizon-theory #:no-horizon-horizon
    #:outside-horizon #:outside-horizon-time #:outside-horizon-horizon #:outside-horizon-event #:closed-reasoner #:closed-reasoner-theory

@@ -62,6 +62,9 @@ know."))
   (:documentation "Signaled when an action binding cannot say what a designator means in its
 theory."))
 
+(defmethod source:self-explaining-p ((condition action-problem))
+  (and (action-problem-position condition) t))
+
 (define-condition invalid-trace (symbolic-execution-error)
   ((reason :initarg :reason :reader invalid-trace-reason
            :documentation "What is wrong, as a string."))

@@ -11,6 +11,7 @@
    ;; action theories: what designators mean in a theory
    #:action-theory #:action-theory-name #:action-theory-theory #:action-theory-ground
    #:action-theory-actions #:define-action #:register-action #:region-of-pose #:region-of
+   #:value-of #:truth-of
    #:action-binding #:find-action-binding #:find-action-theory #:register-action-theory
    #:all-action-theories
    #:entered-p #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition

@@ -25,6 +25,10 @@
         (outside-the-plan (*path*) (complain))
         (complain))))
 
+(defun evaluate (form)
+  "Evaluate FORM in the null lexical environment."
+  (funcall (the function (analyze form (make-scope))) (vector nil)))
+
 (defun constant-closure (value)
   (lambda (frame) (declare (ignore frame)) value))
 

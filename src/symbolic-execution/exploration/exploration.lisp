@@ -19,7 +19,7 @@
    (order :initarg :order :reader exploration-order
           :documentation "The order of the paths, a keyword.")
    (seed :initarg :seed :reader exploration-seed :documentation "The seed of the order :RANDOM.")
-   (schedules :initarg :schedules :reader exploration-schedules)
+   (interleavings :initarg :interleavings :reader exploration-interleavings)
    (file-output :initarg :file-output :reader exploration-file-output)
    (keep-errors :initarg :keep-errors :reader exploration-keep-errors)
    (max-paths :initarg :max-paths :reader exploration-max-paths)
@@ -169,7 +169,7 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
 (defun make-exploration (plan domain
                          &key constraint arguments (traces :last) (order :depth-first) (seed 0)
                            (max-paths 10000) (max-steps 1000) (max-jumps 1000000) max-seconds
-                           (schedules :one) file-output progress solver-timeout solver-options
+                           interleavings file-output progress solver-timeout solver-options
                            keep-errors)
   "Return an EXPLORATION of the plan named PLAN (a symbol) in DOMAIN (an ACTION-THEORY or its name).
   CONSTRAINT  a state constraint, its name, or a formula over ?time and (+ ?time n); with NIL the
@@ -196,7 +196,8 @@ UNSUPPORTED-FORM."
                 (member traces '(:last :every-instance :first-instance :every-state)))
   (check-option :order order "one of :depth-first, :breadth-first, :random, :coverage"
                 (member order '(:depth-first :breadth-first :random :coverage)))
-  (check-option :schedules schedules "one of :one, :all" (member schedules '(:one :all)))
+  (check-option :interleavings interleavings "one of nil, t, :all"
+                (member interleavings '(nil t :all)))
   (check-bounds :max-paths max-paths :max-steps max-steps :max-jumps max-jumps :seed seed)
   (let* ((plan (plan:find-plan plan))
          (domain (if (typep domain 'action-theory) domain (find-action-theory domain)))
@@ -210,7 +211,7 @@ UNSUPPORTED-FORM."
                                 (ec:ground-formula ground
                                                    (ec:state-constraint-formula constraint)))
                    :traces (if (and any-action (eq traces :last)) :every-instance traces)
-                   :order order :seed seed :schedules schedules
+                   :order order :seed seed :interleavings interleavings
                    :file-output (and file-output t) :keep-errors (and keep-errors t)
                    :max-paths max-paths :max-steps max-steps :max-jumps max-jumps
                    :max-seconds max-seconds :progress progress

@@ -83,7 +83,7 @@
                :states (list (current-initial-state exploration))
                :symbolic-p (and (exploration-types exploration) t)
                :max-steps (exploration-max-steps exploration)
-               :schedules (exploration-schedules exploration)
+               :interleavings (exploration-interleavings exploration)
                :file-output (exploration-file-output exploration)
                :keep-errors (exploration-keep-errors exploration)
                :deadline (deadline exploration)
@@ -210,13 +210,13 @@ question is taken for possible."
              (return trace))))))
 
 (defun explore-plan (plan &rest options &key domain constraint arguments traces order seed
-                                          max-paths max-steps max-jumps max-seconds schedules
+                                          max-paths max-steps max-jumps max-seconds interleavings
                                           file-output progress solver-timeout solver-options)
   "Return an EXPLORATION that has found every trace of PLAN in DOMAIN and holds no foreign memory.
 The options are those of MAKE-EXPLORATION.  While it is at work, e.g. in the debugger after C-c, the
 restart STOP-EXPLORING returns what was found so far."
   (declare (ignore constraint arguments traces order seed max-paths max-steps max-jumps max-seconds
-                   schedules file-output progress solver-timeout solver-options))
+                   interleavings file-output progress solver-timeout solver-options))
   (let ((exploration (apply #'make-exploration plan domain (alexandria:remove-from-plist
                                                             options :domain))))
     (explore-all exploration #'next-trace)

@@ -37,10 +37,6 @@ must be true for it."
     (multiple-value-bind (next conditions) (ec:progress state event)
       (values next (if (eq condition t) conditions (acons nil condition conditions))))))
 
-(defun shareable-p (value)
-  "Return true if one run may get the VALUE that another run got: it has no parts to be changed."
-  (typep value '(or symbol number character)))
-
 (defun recorded-step (path description)
   "Return the outcome and the state after it if the next decision of PATH's prefix is for the step
 DESCRIPTION and still remembers them, else NIL."
@@ -64,7 +60,7 @@ DESCRIPTION and still remembers them, else NIL."
 the state after it."
   (let ((description (princ-to-string designator)))
     (multiple-value-bind (recorded next) (recorded-step path description)
-      (if (and recorded (shareable-p (outcome-value recorded)))
+      (if (and recorded (null (outcome-result recorded))) ; no part of the other run in it
           (progn (repeat-decision path (next-recorded path))
                  (values recorded next description))
           (let ((outcomes (action-outcomes (path-domain path) designator
@@ -72,9 +68,11 @@ the state after it."
             ;; Its arguments may have been decided meanwhile.
             (multiple-value-bind (recorded next) (recorded-step path description)
               (if recorded
-                  (let ((number (decision-choice (next-recorded path))))
+                  (let ((outcome (nth (decision-choice (next-recorded path)) outcomes)))
+                    (unless (and outcome (equal (outcome-event outcome) (outcome-event recorded)))
+                      (other-decision path (next-recorded path) description))
                     (repeat-decision path (next-recorded path))
-                    (values (nth number outcomes) next description))
+                    (values outcome next description))
                   (destructuring-bind (outcome . next)
                       (decide path description (step-options path outcomes))
                     (values outcome next description)))))))))
@@ -105,15 +103,8 @@ enters that plan."
            (let* ((plan (plan:current-plan-name))
                   (outcome (outside-the-plan (path) (take-step path designator position plan))))
              (if (eq (outcome-name outcome) :success)
-                 (outcome-value outcome)
-                 (plan:fail (outcome-name outcome)))))))
-
-(defmethod plan:choose-strand ((path path) scheduler count)
-  (if (eq (path-schedules path) :all)
-      (decide path "the task that has its turn"
-              (loop for number below count collect (cons number t))
-              :exhaustive t)
-      (call-next-method)))
+                 (outcome-value outcome (first (path-states path)))
+                 (apply #'plan:fail (outcome-name outcome) (outcome-initargs outcome)))))))
 
 (defmethod plan:call-plan-function ((path path) name arguments)
   (apply (global-function name) arguments))

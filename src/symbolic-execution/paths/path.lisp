@@ -11,9 +11,8 @@
 ALTERNATIVES are such lists of decisions, the deepest first, for runs to come.
 MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries, DEADLINE, in seconds
 of the monotonic clock, the time.
-SYMBOLIC-P is true once the run has symbolic values; LIMITS are sentences
-on what it leaves out; with SCHEDULES :ALL the order in which parallel tasks take their turns is
-decided, too; HANDLERS are the condition handlers outside of the plan.  STEP-DEPTHS has for each
+SYMBOLIC-P is true once the run has symbolic values; LIMITS are sentences on what it leaves out;
+INTERLEAVINGS says which orders of parallel tasks are explored; HANDLERS are the condition handlers outside of the plan.  STEP-DEPTHS has for each
 step the number of decisions up to it, REPEATED is the number of those that repeat another run.
 ENDING says why the run is over, :ERROR if by the condition FATAL; with KEEP-ERRORS an error of the
 plan is an ending like others."
@@ -35,7 +34,7 @@ plan is an ending like others."
   (deadline nil :type (or null double-float) :read-only t)
   (symbolic-p nil :type boolean)
   (limits '() :type list)
-  (schedules :one :type (member :one :all) :read-only t)
+  (interleavings nil :type (member nil t :all) :read-only t)
   (file-output nil :type boolean :read-only t)
   (keep-errors nil :type boolean :read-only t)
   (handlers nil)
