@@ -315,7 +315,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "evaluator") (:file "exploration") (:file "parallel")
                              (:file "table") (:file "open-theories")
-                             (:file "define-action")))
+                             (:file "define-action") (:file "random-plans")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")
