@@ -3,7 +3,8 @@
 ;;;; The journal is a list of (number symbol task . restoring function), the last write first.  A
 ;;;; write to a variable that a task has bound itself is forgotten when the binding ends; what
 ;;;; another task writes meanwhile is the global value.  Bindings of several tasks need not end in
-;;;; the reverse order of their begin.  Entry points: NOTE-WRITE, WITH-FORGOTTEN-WRITES, UNDO-WRITES.
+;;;; the reverse order of their begin.  Entry points: NOTE-WRITE, WITH-FORGOTTEN-WRITES,
+;;;; UNDO-WRITES.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
