@@ -16,6 +16,8 @@
 one is not known.")
 
 (defun processor-milliseconds (function)
+  "Return the processor time (ms) of a call of FUNCTION, without garbage from before."
+  (sb-ext:gc :full t)
   (let ((start (foreign:processor-seconds)))
     (funcall function)
     (* 1d3 (- (foreign:processor-seconds) start))))
