@@ -224,7 +224,14 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "path") (:file "decisions") (:file "journal")))
                (:module "values"
                 :serial t
-                :components ((:file "symbolic-values")))
+                :components ((:file "symbolic-values") (:file "deciding")
+                             (:file "deciding-objects") (:file "interpreted-functions")
+                             (:file "intervals") (:file "arguments")))
+               (:module "lifted"
+                :serial t
+                :components ((:file "table") (:file "equality") (:file "arithmetic")
+                             (:file "comparison") (:file "division") (:file "types")
+                             (:file "conses") (:file "fluent-operators")))
                (:module "evaluator"
                 :serial t
                 :components ((:file "scope") (:file "evaluator") (:file "functions")

@@ -25,8 +25,13 @@
    #:make-trace-step #:make-execution-trace
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
    ;; symbolic values
-   #:symbolic-boolean #:symbolic-boolean-proposition
+   #:symbolic-value #:symbolic-value-p #:symbolic-boolean #:symbolic-boolean-proposition
+   #:symbolic-number #:symbolic-number-term #:symbolic-number-type
+   #:symbolic-element #:symbolic-element-choices
+   #:*number-limit* #:function-kind #:lifted-function #:make-symbolic-argument
    ;; conditions
    #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
    #:action-problem #:domain-not-found
+   #:unknown-argument-type #:unknown-argument-type-parameter #:unknown-argument-type-type
+   #:unknown-argument-type-sorts
    #:plan-broke #:plan-broke-plan #:plan-broke-error #:call-plan))

@@ -112,7 +112,7 @@
   (let ((exploration (explore-text "
 (def-top-level-cram-function lamp-plan (?flag)
   (let ((seen (list ?flag)))
-    (check-type (first seen) boolean)
+    (symbol-name (first seen))
     (perform (a motion (type toggling) (lamp a)))))"
                                    :constraint 'lamp-a-lit :arguments '((?flag boolean)))))
     (is (equal '((t) (nil))

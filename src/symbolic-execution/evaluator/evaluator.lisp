@@ -83,11 +83,11 @@
 
 (defun call-function (function arguments description)
   "Call FUNCTION with ARGUMENTS; a compiled function gets no symbolic value."
-  (apply function
-         (if (or (typep function 'interpreted-function)
-                 (null *path*) (not (path-symbolic-p *path*)))
-             arguments
-             (mapcar (lambda (argument) (decided argument description)) arguments))))
+  (cond ((typep function 'interpreted-function)
+         (apply (interpreted-function-code function) arguments))
+        ((gethash function *known-functions*)
+         (apply (the function (gethash function *known-functions*)) arguments))
+        (t (call-opaque function arguments description))))
 
 (defun analyze-arguments (forms scope)
   (mapcar (lambda (form) (analyze form scope)) forms))
@@ -121,15 +121,6 @@
          (arguments (analyze-arguments (rest form) scope))
          (description (describe-form form)))
     (case name
-      ((not null discrepancy-finder.cpl:not)
-       (let ((argument (first arguments)))
-         (unless (= (length arguments) 1) (unsupported form "one argument was expected"))
-         (lambda (frame)
-           (let ((value (funcall (the function argument) frame)))
-             (if (symbolic-boolean-p value)
-                 (make-symbolic-boolean (z3:negation (symbolic-boolean-proposition value)))
-                 ;; That of CPL knows fluents.
-                 (funcall name value))))))
       (funcall
        (lambda (frame)
          (destructuring-bind (function . values) (evaluate-arguments arguments frame)

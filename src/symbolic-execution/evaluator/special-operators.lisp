@@ -14,7 +14,7 @@
           (test (analyze test scope)) (then (analyze then scope)) (else (analyze else scope)))
       (lambda (frame)
         (let ((value (funcall (the function test) frame)))
-          (if (if (symbolic-boolean-p value) (truth value description) value)
+          (if (if (symbolic-value-p value) (truth value description) value)
               (funcall (the function then) frame)
               (funcall (the function else) frame)))))))
 

@@ -177,6 +177,8 @@ NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of the pr
 
 (defun note-limits (exploration path)
   "Note what the theory says and progression along PATH does not."
+  (dolist (text (path-limits path))
+    (note-gap exploration "~a" text))
   (loop for (axiom . reason) in (ec:state-limits (first (path-states path)))
         do (note-gap exploration "what ~a says: ~a"
                      (if (typep axiom 'ec:axiom)

@@ -1,9 +1,10 @@
 ;;;; The journal of a path: what a run changes outside of itself is undone after it.
 ;;;;
-;;;; The journal is a list of (number symbol task . restoring function), the last write first.  A
-;;;; write to a variable that a task has bound itself is forgotten when the binding ends; what
-;;;; another task writes meanwhile is the global value.  Bindings of several tasks need not end in
-;;;; the reverse order of their begin.  Entry points: NOTE-WRITE, WITH-FORGOTTEN-WRITES,
+;;;; The journal is a list of entries, the last first: (number symbol task . restoring function) for
+;;;; a write to a global variable, (number . restoring function) for a change of an object.  A write
+;;;; to a variable that a task has bound itself is forgotten when the binding ends; what another
+;;;; task writes meanwhile is the global value.  Bindings of several tasks need not end in the
+;;;; reverse order of their begin.  Entry points: NOTE-WRITE, NOTE-UNDO, WITH-FORGOTTEN-WRITES,
 ;;;; UNDO-WRITES.
 
 (in-package #:discrepancy-finder.symbolic-execution)
@@ -18,15 +19,27 @@
                      (lambda () (makunbound symbol))))
           (path-journal *path*))))
 
+(defun note-undo (function)
+  "Let FUNCTION, without arguments, be called after the run, what was noted last first: it undoes
+what the run does to an object.  Without a path nothing is noted."
+  (declare (type function function))
+  (let ((path *path*))
+    (when path
+      (push (cons (incf (path-writes path)) function) (path-journal path))))
+  (values))
+
+(defun object-entry-p (entry)
+  (functionp (rest entry)))
+
 (defun forget-writes (path symbols since)
   "Forget the writes of the current task to SYMBOLS that have a number above SINCE."
   (let ((task (plan:current-task)) (newer '()) (older (path-journal path)))
     (loop while (and older (> (first (first older)) since))
           do (let ((entry (pop older)))
-               (destructuring-bind (symbol writer . restore) (rest entry)
-                 (declare (ignore restore))
-                 (unless (and (member symbol symbols) (eq writer task))
-                   (push entry newer)))))
+               (unless (and (not (object-entry-p entry))
+                            (member (second entry) symbols)
+                            (eq (third entry) task))
+                 (push entry newer))))
     (setf (path-journal path) (nreconc newer older))))
 
 (defmacro with-forgotten-writes ((symbols) &body body)
@@ -39,5 +52,5 @@
            (forget-writes *path* ,names ,since))))))
 
 (defun undo-writes (path)
-  (loop for (nil nil nil . restore) in (path-journal path) do (funcall restore))
-  (setf (path-journal path) '()))
+  (loop for entry in (shiftf (path-journal path) '())
+        do (funcall (the function (if (object-entry-p entry) (rest entry) (cdddr entry))))))

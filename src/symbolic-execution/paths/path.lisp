@@ -14,7 +14,8 @@
 (defstruct (path (:copier nil))
   "A symbolic run.  Lists are in reverse order but for PREFIX, what is still to be repeated.
 MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries.
-SYMBOLIC-P is true if the plan has symbolic arguments; with SCHEDULES :ALL the order in which
+SYMBOLIC-P is true once the run has met a symbolic value, LIMITS are sentences on what it
+leaves out; with SCHEDULES :ALL the order in which
 parallel tasks take their turns is decided, too; HANDLERS are the condition handlers outside
 of the plan.  ENDING says why the run is over, :ERROR if by the condition FATAL."
   (plan nil :read-only t)
@@ -29,7 +30,8 @@ of the plan.  ENDING says why the run is over, :ERROR if by the condition FATAL.
   (writes 0 :type fixnum)
   (max-steps 1000 :type (integer 0) :read-only t)
   (jumps-left 0 :type fixnum)
-  (symbolic-p nil :type boolean :read-only t)
+  (symbolic-p nil :type boolean)
+  (limits '() :type list)
   (schedules :one :type (member :one :all) :read-only t)
   (handlers nil)
   (ending nil)
@@ -63,6 +65,11 @@ What cleanup forms of the plan do meanwhile is without effect, and cannot make i
   "Evaluate BODY, which is no business of the plan, on the thread of the top-level: its errors are
 for handlers from outside, and doom the run unless they return."
   `(call-outside-the-plan ,path (lambda () ,@body)))
+
+(defun note-limit (path text)
+  "Note TEXT, a sentence, as something that the run of PATH leaves out: the exploration is not
+complete then."
+  (pushnew text (path-limits path) :test #'string=))
 
 (defun count-jump (path)
   "Count a jump in a loop of the plan; abandon PATH after too many."
