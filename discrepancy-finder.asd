@@ -337,4 +337,5 @@ The environment variable CXX names another compiler than g++."))
   :pathname "bench/"
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "household")
-               (:file "bounded") (:file "progression") (:file "benchmarks")))
+               (:file "clingo") (:file "bounded") (:file "progression")
+               (:file "benchmarks")))

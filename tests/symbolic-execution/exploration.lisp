@@ -11,7 +11,8 @@
   (:fluents (lit lamp) (broken lamp))
   (:events (toggle lamp) (smash lamp))
   (:axioms
-   (toggle-on (implies (and (not (holds-at (lit ?lamp) ?time)) (not (holds-at (broken ?lamp) ?time)))
+   (toggle-on (implies (and (not (holds-at (lit ?lamp) ?time))
+                            (not (holds-at (broken ?lamp) ?time)))
                        (initiates (toggle ?lamp) (lit ?lamp) ?time)))
    (toggle-off (implies (holds-at (lit ?lamp) ?time) (terminates (toggle ?lamp) (lit ?lamp) ?time)))
    (smash-breaks (initiates (smash ?lamp) (broken ?lamp) ?time))
