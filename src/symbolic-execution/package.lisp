@@ -33,6 +33,8 @@
    #:verify-plan #:verification #:verification-verdict #:verification-property
    #:verification-counterexample #:verification-problem #:verification-bounds
    #:verification-exploration
+   ;; the evaluator
+   #:evaluate
    ;; symbolic values
    #:symbolic-value #:symbolic-value-p #:symbolic-boolean #:symbolic-boolean-proposition
    #:symbolic-number #:symbolic-number-term #:symbolic-number-type

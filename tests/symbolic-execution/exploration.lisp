@@ -3,6 +3,9 @@
 (def-suite exploration :in all)
 (in-suite exploration)
 
+(defvar *runs* 0
+  "Counts calls of a compiled function, which are not undone.")
+
 (defclass lamp-domain (symbolic:action-theory) ())
 
 (defparameter *lamp-theory* "
@@ -253,9 +256,6 @@
                                    :constraint 'anything :arguments '((?flag boolean)))))
     (is (= 2 (length (symbolic:exploration-traces exploration))))
     (is (= 0 *counter*))))
-
-(defvar *runs* 0
-  "Counts calls of a compiled function, which are not undone.")
 
 (defun count-a-run ()
   (incf *runs*))

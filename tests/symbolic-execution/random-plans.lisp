@@ -94,9 +94,9 @@
              `(perform (a motion (type walking) (spot ,(random-of 'p 'q))))
              `(perform (a motion (type looking) (item ,(random-item))))))
 
-(defun random-condition (depth)
+(defun random-test (depth)
   (if (and (plusp depth) (zerop (random 3)))
-      `(,(random-of 'and 'or) ,(random-condition (1- depth)) ,(random-condition (1- depth)))
+      `(,(random-of 'and 'or) ,(random-test (1- depth)) ,(random-test (1- depth)))
       (random-of '?flag '(not ?flag) '(eq ?item :a) `(< ?count ,(1+ (random 2)))
                  '(evenp discrepancy-finder.tests::*tally*) '(eql ?count 1)
                  '(gethash :key discrepancy-finder.tests::*notes*)
@@ -111,7 +111,7 @@
       (random-of (random-perform) (mark) '(incf discrepancy-finder.tests::*tally*))
       (let ((depth (1- depth)))
         (ecase (random (if (symbolic:lifted-function 'sb-kernel:%puthash) 11 9))
-          ((0 1 2) `(if ,(random-condition 1)
+          ((0 1 2) `(if ,(random-test 1)
                         (progn ,(mark) ,@(random-body depth))
                         (progn ,(mark) ,@(random-body depth))))
           ((3 4) `(with-failure-handling
@@ -127,15 +127,15 @@
                        (return)))
                   ,@(random-body depth))))
           (6 `(dotimes (i ,(random-of 2 '?count)) ,@(random-body (min depth 1))))
-          (7 `(let ((value ,(random-condition 1)))
+          (7 `(let ((value ,(random-test 1)))
                 (unless value ,(mark) ,@(random-body depth))
                 (when value (incf discrepancy-finder.tests::*tally* 2))))
           (8 `(block leave
-                (unwind-protect (when ,(random-condition 0) (return-from leave))
+                (unwind-protect (when ,(random-test 0) (return-from leave))
                   ,(mark))
                 ,@(random-body depth)))
           ((9 10) `(setf (gethash ,(random-of :key :other) discrepancy-finder.tests::*notes*)
-                         ,(random-condition 0)))))))
+                         ,(random-test 0)))))))
 
 (defun random-plan-text (seed)
   "Return the text of the plan random-plan, a function of SEED."
@@ -298,7 +298,7 @@ outcomes, goes the same way."
           when (equal signature wanted) return t
           while (next-script taken))))
 
-(defun disagreement (domain seed)
+(defun plan-disagreement (domain seed)
   "Return NIL if the plan of SEED has the same paths symbolically and concretely, else a text; and
 the numbers of paths and of concrete runs."
   (with-file (file (random-plan-text seed))
@@ -329,7 +329,7 @@ the numbers of paths and of concrete runs."
 (test random-plans-have-the-paths-that-brute-force-finds
   (let ((domain (load-gadgets)) (paths 0) (runs 0))
     (dotimes (seed *random-plan-count*)
-      (multiple-value-bind (disagreement path-count run-count) (disagreement domain seed)
+      (multiple-value-bind (disagreement path-count run-count) (plan-disagreement domain seed)
         (incf paths path-count)
         (incf runs run-count)
         (is (null disagreement) "plan ~d: ~a~%~a" seed disagreement (random-plan-text seed))))
