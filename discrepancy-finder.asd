@@ -244,7 +244,8 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "perform") (:file "interleavings") (:file "trace")
                              (:file "arguments") (:file "least-models")
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
-                             (:file "runs") (:file "exploration") (:file "next-trace")
+                             (:file "runs") (:file "exploration") (:file "initial-states")
+                             (:file "next-trace")
                              (:file "verification") (:file "trace-json")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
@@ -340,4 +341,4 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "household")
                (:file "clingo") (:file "bounded") (:file "progression")
-               (:file "benchmarks")))
+               (:file "exploration") (:file "benchmarks")))

@@ -2,7 +2,7 @@
 ;;;;
 ;;;; :ARGUMENTS '((?object-type item-type) (?retries (integer 0 3))) gives parameters types; each run
 ;;;; calls the plan with symbolic values of these types.  A trace has the least concrete ones that
-;;;; its path allows.  Entry points: PARAMETER-TYPES, MAKE-ARGUMENTS, LEAST-ARGUMENTS.
+;;;; its path allows.  Entry points: PARAMETER-TYPES, MAKE-ARGUMENTS, CONCRETE-ARGUMENTS.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -74,23 +74,8 @@ of an argument its least concrete one: of elements the first.")
   "Return the terms on which the value of ARGUMENT depends, the more important ones first."
   (terms-to-fix (argument-value argument)))
 
-(defun proposition-term-p (term)
-  (and (z3:term-p term) (eq (z3:sort-kind (z3:term-sort term)) :boolean)))
-
-(defun least-arguments (oracle arguments)
-  "Return the list of the least concrete values of ARGUMENTS that the solver of ORACLE allows, and
-assert that they have these; :NONE if it finds none."
-  (when (null arguments)
-    (return-from least-arguments '()))
-  (dolist (argument arguments)
-    (let ((terms (argument-terms argument)))
-      (if (every #'proposition-term-p terms)
-          (when (eq (least-values oracle terms) :none)
-            (return-from least-arguments :none))
-          (fix-numbers oracle terms))))
-  (if (eq (ask oracle) :sat)
-      (flet ((value-of (term)
-               (if (z3:term-p term) (z3:model-value (oracle-solver oracle) term) term)))
-        (loop for argument in arguments
-              collect (funcall (argument-concrete argument) #'value-of)))
-      :none))
+(defun concrete-arguments (assignment arguments)
+  "Return the list of the concrete values of ARGUMENTS by ASSIGNMENT."
+  (loop for argument in arguments
+        collect (funcall (argument-concrete argument)
+                         (lambda (term) (term-value assignment term)))))
