@@ -22,12 +22,8 @@
 
 (defun truth-in (domain state formula)
   "Return whether FORMULA, in which fluents stand for themselves, holds in STATE."
-  (let ((proposition (ec:holds (ec:ground-formula
-                                (action-theory-ground domain)
-                                (ec:parse-formula formula (action-theory-theory domain)
-                                                  :blame "a truth-of"))
-                               (list state))))
-    (symbolic-boolean proposition)))
+  (symbolic-boolean
+   (ec:holds (ground-state-formula domain formula (constantly "a truth-of")) (list state))))
 
 (defun value-in (domain state fluent variable)
   "Return the element in the place of VARIABLE for which FLUENT holds in STATE, the first one if
