@@ -146,7 +146,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "outline") (:file "dated") (:file "outlining")
                              (:file "states") (:file "initial-states") (:file "resolve")
                              (:file "trajectories") (:file "numbers") (:file "turns")
-                             (:file "successors") (:file "progress")))
+                             (:file "successors") (:file "progress")
+                             (:file "footprints")))
                (:module "e-files"
                 :serial t
                 :components ((:file "conditions") (:file "tokens") (:file "expressions")
@@ -232,7 +233,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "special-operators") (:file "conditions-in-plans")))
                (:module "exploration"
                 :serial t
-                :components ((:file "perform") (:file "interleavings") (:file "trace")
+                :components ((:file "perform") (:file "lisp-footprints")
+                             (:file "interleavings") (:file "races") (:file "trace")
                              (:file "arguments") (:file "least-models")
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
                              (:file "runs") (:file "exploration") (:file "next-trace")))))
@@ -307,7 +309,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "evaluator") (:file "exploration") (:file "parallel")
                              (:file "table") (:file "open-theories")
-                             (:file "define-action")))
+                             (:file "define-action") (:file "interleavings")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")

@@ -11,7 +11,7 @@
 ALTERNATIVES are such lists of decisions, the deepest first, for runs to come.
 MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries, DEADLINE, in seconds
 of the monotonic clock, the time.  SYMBOLIC-P is true once the run has symbolic values;
-INTERLEAVINGS says which orders of parallel tasks are explored; HANDLERS are the condition handlers
+INTERLEAVINGS says which orders of parallel tasks are explored, SCHEDULE notes those of this run; HANDLERS are the condition handlers
 outside of the plan.  STEP-DEPTHS has for each step the number of decisions up to
 it, REPEATED is the number of those that repeat another run.  ENDING says why the run is over,
 :ERROR if by the condition FATAL."
@@ -33,6 +33,7 @@ it, REPEATED is the number of those that repeat another run.  ENDING says why th
   (deadline nil :type (or null double-float) :read-only t)
   (symbolic-p nil :type boolean)
   (interleavings nil :type (member nil t :all) :read-only t)
+  (schedule nil :read-only t)
   (file-output nil :type boolean :read-only t)
   (handlers nil)
   (ending nil)
