@@ -8,7 +8,8 @@ them and why, and what they say of a state after known events.")
    ;; theories
    #:define-theory #:load-theory #:find-theory #:make-checked-theory #:register-theory
    #:theory #:theory-name #:theory-documentation #:theory-syntax #:theory-file
-   #:theory-sorts #:theory-predicates #:theory-extensions #:theory-functions #:theory-fluents #:theory-non-inertial
+   #:theory-sorts #:theory-predicates #:theory-extensions #:theory-functions
+   #:theory-fluents #:theory-non-inertial
    #:theory-manual-release #:theory-events #:theory-axioms #:theory-completions
    #:theory-exclusions #:theory-time-range #:theory-offset-range #:theory-options
    #:sort-elements #:element-sort #:sort-name #:sort-parents #:sort-range #:sort-constants
@@ -57,6 +58,7 @@ them and why, and what they say of a state after known events.")
    #:theory-error-reason
    #:theory-not-found #:state-constraint-not-found #:unknown-atom
    #:no-horizon #:no-horizon-theory #:no-horizon-horizon
-   #:outside-horizon #:outside-horizon-time #:outside-horizon-horizon #:outside-horizon-event #:closed-reasoner #:closed-reasoner-theory
+   #:outside-horizon #:outside-horizon-time #:outside-horizon-horizon #:outside-horizon-event
+   #:closed-reasoner #:closed-reasoner-theory
    #:undetermined #:undetermined-atom #:undetermined-kind #:undetermined-time
    #:undetermined-theory))

@@ -5,6 +5,7 @@
                     (#:ec #:discrepancy-finder.event-calculus)
                     (#:plan #:discrepancy-finder.plan-language)
                     (#:source #:discrepancy-finder.source)
+                    (#:json #:discrepancy-finder.json)
                     (#:foreign #:discrepancy-finder.foreign))
   (:export
    ;; action theories: what designators mean in a theory
@@ -27,10 +28,22 @@
    #:make-trace-step #:make-execution-trace
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
    #:trace= #:trace-decisions #:trace-ending #:trace-output #:trace-decision #:taken-text
-   #:taken-choice #:taken-time
+   #:taken-choice #:taken-time #:trace-to-json #:trace-from-json
+   ;; verification
+   #:verify-plan #:verification #:verification-verdict #:verification-property
+   #:verification-counterexample #:verification-problem #:verification-bounds
+   #:verification-exploration
+   ;; the evaluator
+   #:evaluate
    ;; symbolic values
-   #:symbolic-boolean #:symbolic-boolean-proposition
+   #:symbolic-value #:symbolic-value-p #:symbolic-boolean #:symbolic-boolean-proposition
+   #:symbolic-number #:symbolic-number-term #:symbolic-number-type
+   #:symbolic-element #:symbolic-element-choices
+   #:*number-limit* #:function-kind #:lifted-function #:make-symbolic-argument
    ;; conditions
    #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
-   #:action-problem #:domain-not-found
+   #:action-problem #:domain-not-found #:invalid-trace #:invalid-trace-reason
+   #:file-output-refused #:file-output-refused-file #:file-output-refused-plan
+   #:unknown-argument-type #:unknown-argument-type-parameter #:unknown-argument-type-type
+   #:unknown-argument-type-sorts
    #:plan-broke #:plan-broke-plan #:plan-broke-error #:call-plan))

@@ -16,7 +16,7 @@
    #:boolean-sort #:integer-sort #:real-sort #:enumeration-sort
    ;; terms
    #:proposition #:term #:term-p #:term-context #:term-sort #:with-released-terms
-   #:variable #:constant-term #:term-name #:term-equal
+   #:variable #:constant-term #:term-name #:term-text #:term-equal
    ;; propositions
    #:negation #:conjunction #:disjunction #:implication #:equivalence #:at-most #:at-least
    ;; terms of every sort

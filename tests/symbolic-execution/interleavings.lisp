@@ -213,6 +213,7 @@ return the numbers of their paths."
   (format nil "
 (def-top-level-cram-function switch-plan ()
   (let ((x nil))
+    (list x)
     (with-failure-handling ((plan-failure () (return)))
       (~a ~a~%          ~a)
       ~a)))"
@@ -227,4 +228,4 @@ return the numbers of their paths."
       (multiple-value-bind (fewer paths) (check-pruning (random-parallel-plan state))
         (incf pruned fewer)
         (incf all paths)))
-    (is (< (* 2 pruned) all) "~d paths instead of ~d" pruned all)))
+    (is (< pruned all) "~d paths instead of ~d" pruned all)))

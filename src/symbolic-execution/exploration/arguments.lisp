@@ -2,7 +2,7 @@
 ;;;;
 ;;;; :ARGUMENTS '((?object-type item-type) (?retries (integer 0 3))) gives parameters types; each run
 ;;;; calls the plan with symbolic values of these types.  A trace has the least concrete ones that
-;;;; its path allows.  Entry points: PARAMETER-TYPES, MAKE-ARGUMENTS, LEAST-ARGUMENTS.
+;;;; its path allows.  Entry points: PARAMETER-TYPES, MAKE-ARGUMENTS, CONCRETE-ARGUMENTS.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -48,67 +48,34 @@ that name."
                 (loop for ((keyword name)) in keywords
                       when (given name) collect keyword and collect (given name)))))))
 
-(defun numeric-type-p (type)
-  "Return true if values of TYPE, the type of a symbolic argument, are numbers."
-  (and (not (and (symbolp type) (string= type "BOOLEAN")))
-       (let ((name (if (consp type) (first type) type)))
-         (and (symbolp name)
-              (member name '(integer real rational number unsigned-byte signed-byte mod fixnum)
-                      :test #'string=)
-              t))))
-
-(defun make-boolean-argument (parameter context)
-  (let ((proposition (z3:variable context (format nil "argument ~a" parameter))))
-    (values (make-symbolic-boolean proposition) '()
-            (lambda (value-of) (funcall value-of proposition)))))
-
 (defun make-arguments (types theory context)
   "Return the list of the ARGUMENTs for TYPES, what PARAMETER-TYPES returns, of THEORY, with their
-variables in the Z3 CONTEXT.  Signals UNSUPPORTED-FORM for a type that no symbolic value has."
-  (declare (ignorable theory))
+variables in the Z3 CONTEXT.  Signals UNKNOWN-ARGUMENT-TYPE."
   (loop for entry in types
         collect (if (keywordp entry)
-                    (make-argument :value entry
-                                   :concrete (let ((keyword entry)) (lambda (value-of)
-                                               (declare (ignore value-of))
-                                               keyword)))
+                    (make-argument :value entry :concrete (constantly entry))
                     (destructuring-bind (parameter type) entry
-                      (unless (and (symbolp type) (string= type "BOOLEAN"))
-                        (error 'unsupported-form
-                               :form entry
-                               :reason "only parameters of type boolean can be symbolic"))
                       (multiple-value-bind (value conditions concrete)
-                          (make-boolean-argument parameter context)
+                          (make-symbolic-argument parameter type theory context)
                         (make-argument :value value :conditions conditions
                                        :concrete concrete))))))
 
 (defgeneric terms-to-fix (value)
   (:documentation "Return the terms whose least values, one after the other, make the symbolic VALUE
-of an argument its least concrete one.")
+of an argument its least concrete one: of elements the first.")
   (:method (value) (declare (ignore value)) '())
-  (:method ((value symbolic-boolean)) (list (symbolic-boolean-proposition value))))
+  (:method ((value symbolic-boolean)) (list (symbolic-boolean-proposition value)))
+  (:method ((value symbolic-number)) (list (symbolic-number-term value)))
+  (:method ((value symbolic-element))
+    (loop for (nil . proposition) in (symbolic-element-choices value)
+          collect (z3:negation proposition))))
 
 (defun argument-terms (argument)
   "Return the terms on which the value of ARGUMENT depends, the more important ones first."
   (terms-to-fix (argument-value argument)))
 
-(defun proposition-term-p (term)
-  (and (z3:term-p term) (eq (z3:sort-kind (z3:term-sort term)) :boolean)))
-
-(defun least-arguments (oracle arguments)
-  "Return the list of the least concrete values of ARGUMENTS that the solver of ORACLE allows, and
-assert that they have these; :NONE if it finds none."
-  (when (null arguments)
-    (return-from least-arguments '()))
-  (dolist (argument arguments)
-    (let ((terms (argument-terms argument)))
-      (if (every #'proposition-term-p terms)
-          (when (eq (least-values oracle terms) :none)
-            (return-from least-arguments :none))
-          (fix-numbers oracle terms))))
-  (if (eq (ask oracle) :sat)
-      (flet ((value-of (term)
-               (if (z3:term-p term) (z3:model-value (oracle-solver oracle) term) term)))
-        (loop for argument in arguments
-              collect (funcall (argument-concrete argument) #'value-of)))
-      :none))
+(defun concrete-arguments (assignment arguments)
+  "Return the list of the concrete values of ARGUMENTS by ASSIGNMENT."
+  (loop for argument in arguments
+        collect (funcall (argument-concrete argument)
+                         (lambda (term) (term-value assignment term)))))

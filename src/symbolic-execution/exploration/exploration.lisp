@@ -23,6 +23,7 @@
    (uses :initform (make-hash-table :test 'eq) :reader exploration-uses
          :documentation "The LISP-USE of each branch.")
    (file-output :initarg :file-output :reader exploration-file-output)
+   (keep-errors :initarg :keep-errors :reader exploration-keep-errors)
    (max-paths :initarg :max-paths :reader exploration-max-paths)
    (max-steps :initarg :max-steps :reader exploration-max-steps)
    (max-jumps :initarg :max-jumps :reader exploration-max-jumps)
@@ -170,7 +171,8 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
 (defun make-exploration (plan domain
                          &key constraint arguments (traces :last) (order :depth-first) (seed 0)
                            (max-paths 10000) (max-steps 1000) (max-jumps 1000000) max-seconds
-                           interleavings file-output progress solver-timeout solver-options)
+                           interleavings file-output progress solver-timeout solver-options
+                           keep-errors)
   "Return an EXPLORATION of the plan named PLAN (a symbol) in DOMAIN (an ACTION-THEORY or its name).
   CONSTRAINT  a state constraint, its name, or a formula over ?time and (+ ?time n); with NIL the
               theory's only one; :ANY-ACTION: each performed action ends a trace
@@ -185,6 +187,8 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
   INTERLEAVINGS  with NIL tasks that run in parallel take turns in one fixed order, with T all
               orders are explored in which the outcome can differ, with :ALL all orders
   FILE-OUTPUT true if the plan may write files: no run's writing is undone
+  KEEP-ERRORS true if an error that the plan does not handle only ends its path, instead of being
+              signaled as PLAN-BROKE
   PROGRESS    a function that is called with the exploration, at most once a second
   SOLVER-TIMEOUT (s, or NIL) and SOLVER-OPTIONS are for Z3, see Z3:MAKE-SOLVER; what it cannot
               answer is taken for possible, and a gap
@@ -210,13 +214,13 @@ UNSUPPORTED-FORM."
                                                    (ec:state-constraint-formula constraint)))
                    :traces (if (and any-action (eq traces :last)) :every-instance traces)
                    :order order :seed seed :interleavings interleavings
-                   :file-output (and file-output t)
+                   :file-output (and file-output t) :keep-errors (and keep-errors t)
                    :max-paths max-paths :max-steps max-steps :max-jumps max-jumps
                    :max-seconds max-seconds :progress progress
                    :frontier (make-frontier order seed)
                    :oracle (make-path-oracle
                             ground
                             :numeric (some (lambda (entry)
-                                             (and (consp entry) (numeric-type-p (second entry))))
+                                             (and (consp entry) (numeric-argument-type-p (second entry))))
                                            types)
                             :timeout solver-timeout :options solver-options))))

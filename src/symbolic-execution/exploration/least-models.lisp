@@ -17,25 +17,49 @@
   (dolist (proposition propositions)
     (z3:solver-assert (oracle-solver oracle) proposition)))
 
-(defun least-values (oracle propositions)
-  "Return the least list of truth values of PROPOSITIONS that the solver of ORACLE allows, and add
-them to its assertions; :NONE if it finds no model."
-  (unless (eq (ask oracle) :sat)
-    (return-from least-values :none))
-  (let ((values (values-in-model oracle propositions)) (settled '()) (pending '()))
-    (loop while propositions
-          do (let ((proposition (pop propositions)) (value (pop values)))
-               (when (z3:term-p proposition)
-                 (let ((negation (z3:negation proposition)))
-                   (when value
-                     (assert-all oracle (shiftf pending '()))
-                     (when (eq (ask oracle (list negation)) :sat)
-                       (setf value nil
-                             values (values-in-model oracle propositions))))
-                   (push (if value proposition negation) pending)))
-               (push value settled)))
-    (assert-all oracle pending)
-    (nreverse settled)))
+(defstruct (assignment (:constructor make-assignment (oracle)) (:copier nil))
+  "Values of terms: those that were SETTLED, and others by the model of a check that is made when it
+is needed."
+  (oracle nil :type oracle :read-only t)
+  (settled (make-hash-table :test 'eq) :type hash-table :read-only t)
+  (model-p nil :type boolean))
+
+(defun settle (assignment term value)
+  (setf (gethash term (assignment-settled assignment)) value))
+
+(defun term-value (assignment term)
+  "Return the value of TERM, or TERM if it is a constant.  Throws to ASSIGNMENT if Z3 finds no model."
+  (if (z3:term-p term)
+      (multiple-value-bind (value known) (gethash term (assignment-settled assignment))
+        (if known
+            value
+            (let ((oracle (assignment-oracle assignment)))
+              (unless (assignment-model-p assignment)
+                (unless (eq (ask oracle) :sat)
+                  (throw assignment nil))
+                (setf (assignment-model-p assignment) t))
+              (settle assignment term (z3:model-value (oracle-solver oracle) term)))))
+      term))
+
+(defun fix-booleans (assignment propositions)
+  "Settle PROPOSITIONS: they get the least list of truth values that the solver allows, and these
+are asserted.  Throws to ASSIGNMENT if Z3 finds no model."
+  (let ((oracle (assignment-oracle assignment)))
+    (unless (eq (ask oracle) :sat)
+      (throw assignment nil))
+    (let ((values (values-in-model oracle propositions)) (pending '()))
+      (loop while propositions
+            do (let ((proposition (pop propositions)) (value (pop values)))
+                 (when (z3:term-p proposition)
+                   (let ((negation (z3:negation proposition)))
+                     (when value
+                       (assert-all oracle (shiftf pending '()))
+                       (when (eq (ask oracle (list negation)) :sat)
+                         (setf value nil
+                               values (values-in-model oracle propositions))))
+                     (settle assignment proposition value)
+                     (push (if value proposition negation) pending)))))
+      (assert-all oracle pending))))
 
 (defun allowed-p (oracle proposition)
   (and proposition
@@ -77,27 +101,49 @@ greatest negative one, else what Z3 finds first; and assert it.  Return NIL if n
         (z3:solver-assert (oracle-solver oracle) (z3:equals term value))
         value))))
 
-(defun fix-numbers (oracle numbers)
-  "Add to the assertions of ORACLE's solver values for the terms among NUMBERS, one after the
-other."
-  (dolist (number numbers)
-    (when (z3:term-p number)
-      (least-number oracle number))))
+(defun proposition-p (term)
+  (or (typep term 'boolean)
+      (and (z3:term-p term) (eq (z3:sort-kind (z3:term-sort term)) :boolean))))
+
+(defun fix-terms (assignment terms)
+  "Settle TERMS, propositions and numbers: they get the least values, one after the other, that the
+solver allows.  Throws to ASSIGNMENT if Z3 finds none."
+  (loop while terms
+        do (if (proposition-p (first terms))
+               (let ((end (position-if-not #'proposition-p terms)))
+                 (fix-booleans assignment (subseq terms 0 end))
+                 (setf terms (and end (nthcdr end terms))))
+               (let ((term (pop terms)))
+                 (when (z3:term-p term)
+                   (settle assignment term (or (least-number (assignment-oracle assignment) term)
+                                               (throw assignment nil))))))))
+
+(defun state-terms (state)
+  "Return the propositions and numbers of STATE."
+  (append (ec:state-propositions state) (coerce (ec:state-numbers state) 'list)))
+
+(defun fix-states (assignment terms states)
+  "Settle TERMS and then the propositions and numbers of STATES, which follow each other, the
+earlier state first."
+  (fix-terms assignment
+             (append terms
+                     ;; Where the theory leaves nothing open the initial state settles the rest.
+                     (if (every #'ec:state-determined-p states)
+                         (state-terms (first states))
+                         (mapcan #'state-terms states)))))
+
+(defun concrete-states-of (assignment states)
+  "Return STATES, which follow each other, with the values of ASSIGNMENT."
+  (let ((concrete '()))
+    (dolist (state states (nreverse concrete))
+      (push (ec:state-in-model state (lambda (term) (term-value assignment term))
+                               (first concrete))
+            concrete))))
 
 (defun least-states (oracle states)
   "Return STATES, which follow each other, with truth values for their propositions: the least that
 the solver of ORACLE allows, the earlier state first; NIL if it finds no model."
-  (let ((concrete '()))
-    (dolist (state states)
-      (when (eq (least-values oracle (ec:state-propositions state)) :none)
-        (return-from least-states nil))
-      (fix-numbers oracle (coerce (ec:state-numbers state) 'list))
-      ;; Where the theory leaves nothing open the initial state has settled the rest.
-      (when (every #'ec:state-determined-p states)
-        (return)))
-    (when (eq (ask oracle) :sat)
-      (dolist (state states (nreverse concrete))
-        (push (ec:state-in-model state
-                                 (lambda (term) (z3:model-value (oracle-solver oracle) term))
-                                 (first concrete))
-              concrete)))))
+  (let ((assignment (make-assignment oracle)))
+    (catch assignment
+      (fix-states assignment '() states)
+      (concrete-states-of assignment states))))

@@ -13,6 +13,8 @@
 
 (defun note-limits (exploration path)
   "Note what the theory says and progression along PATH does not."
+  (dolist (text (path-limits path))
+    (note-gap exploration "~a" text))
   (loop for (axiom . reason) in (ec:state-limits (first (path-states path)))
         do (note-gap exploration "what ~a says: ~a"
                      (if (typep axiom 'ec:axiom)
@@ -59,17 +61,14 @@
          (known (exploration-initial-state exploration)))
     (if (eql (car known) (oracle-epoch oracle))
         (cdr known)
-        (let ((state (ec:symbolic-state (action-theory-ground (exploration-domain exploration))
-                                        (oracle-context oracle))))
-          (loop for (nil . proposition) in (ec:initial-conditions state)
-                do (oracle-assume oracle proposition))
-          (loop for argument in (current-arguments exploration)
-                do (mapc (lambda (proposition) (oracle-assume oracle proposition))
-                         (argument-conditions argument)))
-          (when (eq (ask oracle) :unsat)
-            (setf (exploration-consistent-p exploration) nil))
-          (setf (exploration-initial-state exploration) (cons (oracle-epoch oracle) state))
-          state))))
+        (let ((ground (action-theory-ground (exploration-domain exploration))))
+          (dolist (argument (current-arguments exploration))
+            (dolist (proposition (argument-conditions argument))
+              (oracle-assume oracle proposition)))
+          (multiple-value-bind (state consistent) (initial-state-of oracle ground)
+            (setf (exploration-consistent-p exploration) consistent
+                  (exploration-initial-state exploration) (cons (oracle-epoch oracle) state))
+            state)))))
 
 (defun current-arguments (exploration)
   "Return new symbolic arguments in the present context of EXPLORATION."
@@ -100,6 +99,7 @@
                                        (exploration-span exploration)
                                        (exploration-uses exploration))
                :file-output (exploration-file-output exploration)
+               :keep-errors (exploration-keep-errors exploration)
                :deadline (deadline exploration)
                :jumps-left (exploration-max-jumps exploration))))
 

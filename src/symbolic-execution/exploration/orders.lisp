@@ -31,10 +31,11 @@
   (:documentation "Let FRONTIER know that a run has taken DECISIONS.")
   (:method ((frontier frontier) decisions) (declare (ignore decisions))))
 
-(defun add-prefixes (frontier prefixes)
-  "Add PREFIXES, of which the first shall come first, to FRONTIER."
-  (dolist (prefix (if (typep frontier 'breadth-first-frontier) prefixes (reverse prefixes)))
-    (add-prefix frontier prefix)))
+(defgeneric add-prefixes (frontier prefixes)
+  (:documentation "Add PREFIXES, of which the first shall come first, to FRONTIER.")
+  (:method ((frontier frontier) prefixes)
+    (dolist (prefix (reverse prefixes))
+      (add-prefix frontier prefix))))
 
 ;;; Breadth first
 
@@ -55,6 +56,10 @@
       (setf (cdr queue) cell))
     (setf (frontier-shortest frontier) (min length (frontier-shortest frontier)))
     (incf (frontier-size frontier))))
+
+(defmethod add-prefixes ((frontier breadth-first-frontier) prefixes)
+  (dolist (prefix prefixes)
+    (add-prefix frontier prefix)))
 
 (defmethod next-prefix ((frontier breadth-first-frontier))
   (loop until (car (aref (frontier-queues frontier) (frontier-shortest frontier)))

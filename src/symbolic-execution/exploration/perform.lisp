@@ -70,9 +70,11 @@ the state after it."
             ;; Its arguments may have been decided meanwhile.
             (multiple-value-bind (recorded next) (recorded-step path description)
               (if recorded
-                  (let ((number (decision-choice (next-recorded path))))
+                  (let ((outcome (nth (decision-choice (next-recorded path)) outcomes)))
+                    (unless (and outcome (equal (outcome-event outcome) (outcome-event recorded)))
+                      (other-decision path (next-recorded path) description))
                     (repeat-decision path (next-recorded path))
-                    (values (nth number outcomes) next description))
+                    (values outcome next description))
                   (destructuring-bind (outcome . next)
                       (decide path description (step-options path outcomes))
                     (values outcome next description)))))))))

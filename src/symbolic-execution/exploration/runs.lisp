@@ -23,6 +23,11 @@ that condition."
         (apply function arguments)
         (plan:ensure-top-level (lambda () (apply function arguments)) plan))))
 
+(defun kept-error-p (path)
+  "Return true if the run of PATH is over by an error of the plan that is an ending like others."
+  (and (path-keep-errors path)
+       (typep (path-fatal path) 'plan-broke)))
+
 (defun run-plan-on (path function arguments)
   "Call FUNCTION, the interpreted plan, with ARGUMENTS on PATH, note how the run ends and return
 what it prints.  Signals NONDETERMINISTIC-PLAN if the plan ends before it has met all decisions of
@@ -39,7 +44,10 @@ the prefix."
          (catch path
            (plan:with-executive (path)
              (handler-case (progn (call-plan (path-plan path) function arguments
-                                             (lambda (condition) (doom path condition)))
+                                             (lambda (condition)
+                                               (doom path condition)
+                                               (when (kept-error-p path)
+                                                 (plan:leave-plan path))))
                                   (unless (path-fatal path)
                                     (setf (path-ending path) :finished)))
                (plan:plan-failure (failure)
@@ -52,7 +60,7 @@ the prefix."
 (defun check-ending (path)
   "Signal the error by which the run of PATH ended, or that it ended too early."
   ;; A cleanup form may have replaced the unwinding by a way out of its own.
-  (when (path-fatal path)
+  (when (and (path-fatal path) (not (kept-error-p path)))
     (error (path-fatal path)))
   (when (and (path-prefix path) (not (eq (path-ending path) :out-of-time)))
     (error 'nondeterministic-plan

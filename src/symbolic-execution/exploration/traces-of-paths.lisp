@@ -69,18 +69,18 @@ hold, the last first."
          (z3:pop-scope ,solver)))))
 
 (defun least-trace (run length &optional note)
-  "Return the trace of the first LENGTH steps of RUN from the least initial state that the solver
-allows, or NIL if it finds none.  NOTE is called with the arguments and states."
-  (let* ((oracle (run-oracle run))
-         (arguments (least-arguments oracle (run-arguments run)))
-         (states (and (listp arguments)
-                      (least-states oracle (subseq (reverse (path-states (run-path run)))
-                                                   0 (1+ length))))))
-    (cond (states
-           (when note (funcall note states))
-           (make-trace run length arguments states))
-          (t (setf (run-missed run) t)
-             nil))))
+  "Return the trace of the first LENGTH steps of RUN with the least arguments from the least initial
+state that the solver allows, or NIL if it finds none.  NOTE is called with the assignment."
+  (let* ((assignment (make-assignment (run-oracle run)))
+         (arguments (run-arguments run))
+         (states (subseq (reverse (path-states (run-path run))) 0 (1+ length))))
+    (or (catch assignment
+          (fix-states assignment (mapcan #'argument-terms (copy-list arguments)) states)
+          (when note (funcall note assignment))
+          (make-trace run length (concrete-arguments assignment arguments)
+                      (concrete-states-of assignment states)))
+        (progn (setf (run-missed run) t)
+               nil))))
 
 (defun last-trace (run)
   "Return the list of the trace of RUN that ends with its last instance; or NIL."
@@ -134,26 +134,17 @@ those that an earlier run with the same beginning had."
 
 ;;; Every state
 
-(defun difference-from (run states)
-  "Return the proposition that the initial state, or an argument, is another than in STATES, which
-the last check of the solver has found."
-  (let ((oracle (run-oracle run))
-        (symbolic (first (last (path-states (run-path run)))))
-        (concrete (first states)))
-    (z3:disjunction
-     (append
-      (loop for proposition in (ec:state-propositions symbolic)
-            for value in (ec:state-propositions concrete)
-            when (z3:term-p proposition)
-              collect (if value (z3:negation proposition) proposition))
-      (loop for number across (ec:state-numbers symbolic)
-            for value across (ec:state-numbers concrete)
-            when (z3:term-p number) collect (z3:negation (z3:equals number value)))
-      (loop for term in (mapcan #'argument-terms (copy-list (run-arguments run)))
-            for value = (z3:model-value (oracle-solver oracle) term)
-            collect (if (typep value 'boolean)
-                        (if value (z3:negation term) term)
-                        (z3:negation (z3:equals term value))))))))
+(defun difference-from (run assignment)
+  "Return the proposition that the initial state of RUN, or an argument, is another than by
+ASSIGNMENT."
+  (z3:disjunction
+   (loop for term in (append (mapcan #'argument-terms (copy-list (run-arguments run)))
+                             (state-terms (first (last (path-states (run-path run))))))
+         for value = (term-value assignment term)
+         when (z3:term-p term)
+           collect (cond ((not (proposition-p term)) (z3:negation (z3:equals term value)))
+                         (value (z3:negation term))
+                         (t term)))))
 
 (defun state-source (run)
   "Return a function that returns the next trace of RUN, each from another initial state, and NIL
@@ -186,8 +177,9 @@ after the last one.  The solver must not be used otherwise meanwhile."
                                (and (not (eq (ask oracle) :unsat))
                                     (least-trace
                                      run length
-                                     (lambda (states)
-                                       (setf difference (difference-from run states))))))))
+                                     (lambda (assignment)
+                                       (setf difference
+                                             (difference-from run assignment))))))))
                  (when trace
                    (z3:solver-assert solver difference)
                    trace))))

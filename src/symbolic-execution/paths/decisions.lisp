@@ -13,6 +13,12 @@
     (when (= (path-depth path) (oracle-depth oracle))
       (oracle-assume oracle proposition))))
 
+(defun possible-p (path proposition)
+  "Return true if PROPOSITION can be true on PATH, which is itself possible, or if Z3 cannot tell."
+  (cond ((eq proposition t) t)
+        ((null proposition) nil)
+        (t (not (eq (ask (path-oracle path) (list proposition)) :unsat)))))
+
 (defun possible-options (path options exhaustive)
   "Return the numbers of the OPTIONS, (choice . proposition), that are possible on PATH.  If they
 are EXHAUSTIVE and all but the last are impossible the last one need not be asked for."
@@ -79,9 +85,10 @@ are EXHAUSTIVE and all but the last are impossible the last one need not be aske
 
 (defun take-option (path description options exhaustive)
   "Decide for the first of OPTIONS that is possible, note the others and return its choice."
-  (let* ((options (if (functionp options) (funcall options) options))
-         (possible (possible-options path options exhaustive))
-         (so-far (path-decisions path)))
+  (when (functionp options)
+    (setf (values options exhaustive) (funcall options)))
+  (let ((possible (possible-options path options exhaustive))
+        (so-far (path-decisions path)))
     (unless possible
       (abandon path :dead-end))
     (flet ((decision (number)
@@ -95,8 +102,8 @@ are EXHAUSTIVE and all but the last are impossible the last one need not be aske
 (defun decide (path description options &key exhaustive)
   "Return the choice of one of OPTIONS, a list of (choice . proposition), and assume its
 proposition.  The other possible ones are noted as alternatives.  OPTIONS may be a function that
-returns this list: a repetition of the decision calls it only if it must.  EXHAUSTIVE: one of the
-propositions is true in any case.  Abandons PATH if none is possible."
+returns this list and the value of EXHAUSTIVE: a repetition of the decision calls it only if it
+must.  It may ask the path's solver.  EXHAUSTIVE: one of the propositions is true in any case.  Abandons PATH if none is possible."
   (outside-the-plan (path)
     (check-deadline path)
     (let ((recorded (next-recorded path)))

@@ -100,12 +100,6 @@ they cannot, :UNKNOWN if Z3 cannot tell and no handler of SOLVER-UNKNOWN helps i
                        (return :unknown))))
       (z3:check (oracle-solver oracle) propositions))))
 
-(defun possible-p (path proposition)
-  "Return true if PROPOSITION can be true on PATH, which is itself possible, or if Z3 cannot tell."
-  (cond ((eq proposition t) t)
-        ((null proposition) nil)
-        (t (not (eq (ask (path-oracle path) (list proposition)) :unsat)))))
-
 ;;; Scopes
 
 (defun oracle-assume (oracle proposition)

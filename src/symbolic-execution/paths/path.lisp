@@ -10,11 +10,12 @@
   "A symbolic run.  Lists are in reverse order but for PREFIX, the decisions still to be repeated.
 ALTERNATIVES are such lists of decisions, the deepest first, for runs to come.
 MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries, DEADLINE, in seconds
-of the monotonic clock, the time.  SYMBOLIC-P is true once the run has symbolic values;
-INTERLEAVINGS says which orders of parallel tasks are explored, SCHEDULE notes those of this run; HANDLERS are the condition handlers
-outside of the plan.  STEP-DEPTHS has for each step the number of decisions up to
-it, REPEATED is the number of those that repeat another run.  ENDING says why the run is over,
-:ERROR if by the condition FATAL."
+of the monotonic clock, the time.  SYMBOLIC-P is true once the run has symbolic values; LIMITS are
+sentences on what it leaves out.  INTERLEAVINGS says which orders of parallel tasks are explored,
+SCHEDULE notes those of this run; HANDLERS are the condition handlers outside of the plan.
+STEP-DEPTHS has for each step the number of decisions up to it, REPEATED is the number of those that
+repeat another run.  ENDING says why the run is over, :ERROR if by the condition FATAL; with
+KEEP-ERRORS an error of the plan is an ending like others."
   (plan nil :read-only t)
   (domain nil :type action-theory :read-only t)
   (oracle nil :type oracle :read-only t)
@@ -32,9 +33,11 @@ it, REPEATED is the number of those that repeat another run.  ENDING says why th
   (jumps-left 0 :type fixnum)
   (deadline nil :type (or null double-float) :read-only t)
   (symbolic-p nil :type boolean)
+  (limits '() :type list)
   (interleavings nil :type (member nil t :all) :read-only t)
   (schedule nil :read-only t)
   (file-output nil :type boolean :read-only t)
+  (keep-errors nil :type boolean :read-only t)
   (handlers nil)
   (ending nil)
   (fatal nil))
@@ -75,6 +78,11 @@ What cleanup forms of the plan do meanwhile is without effect, and cannot make i
   "Evaluate BODY, which is no business of the plan, on the thread of the top-level: its errors are
 for handlers from outside, and doom the run unless they return."
   `(call-outside-the-plan ,path (lambda () ,@body)))
+
+(defun note-limit (path text)
+  "Note TEXT, a sentence, as something that the run of PATH leaves out: the exploration is not
+complete then."
+  (pushnew text (path-limits path) :test #'string=))
 
 (defun check-deadline (path)
   "Abandon PATH if its time is over."
