@@ -92,11 +92,13 @@ DESCRIPTION and still remembers them, else NIL."
 the state after it, and the text of DESIGNATOR."
   (let ((description (designator-text path designator)))
     (multiple-value-bind (recorded next) (recorded-step path description)
-      (if (and recorded (null (outcome-result recorded))) ; no part of the other run in it
+      (if (and recorded (null (path-schedule path))
+               (null (outcome-result recorded))) ; it has no part of the other run
           (progn (repeat-decision path (next-recorded path))
                  (values recorded next description))
           (let ((outcomes (action-outcomes (path-domain path) designator
                                            :plan plan :position position)))
+            (note-outcomes path outcomes)
             ;; Its arguments may have been decided meanwhile.
             (multiple-value-bind (recorded next) (recorded-step path description)
               (if recorded
@@ -139,4 +141,5 @@ enters that plan."
                  (apply #'plan:fail (outcome-name outcome) (outcome-initargs outcome)))))))
 
 (defmethod plan:call-plan-function ((path path) name arguments)
+  (note-entered-plan path name)
   (apply (global-function name) arguments))
