@@ -215,7 +215,7 @@ The environment variable CXX names another compiler than g++."))
                "discrepancy-finder/json" "alexandria" (:require "sb-cltl2"))
   :pathname "src/symbolic-execution/"
   :serial t
-  :components ((:file "package") (:file "conditions")
+  :components ((:file "package") (:file "conditions") (:file "current-path")
                (:module "actions"
                 :serial t
                 :components ((:file "action-theory") (:file "bindings") (:file "clauses")
