@@ -248,7 +248,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
                              (:file "runs") (:file "exploration") (:file "initial-states")
                              (:file "next-trace")
-                             (:file "verification") (:file "trace-json")))))
+                             (:file "verification") (:file "trace-json") (:file "world")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -321,7 +321,7 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "evaluator") (:file "exploration") (:file "parallel")
                              (:file "table") (:file "open-theories")
                              (:file "define-action") (:file "interleavings")
-                             (:file "random-plans")))
+                             (:file "random-plans") (:file "searching")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")
