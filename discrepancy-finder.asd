@@ -231,7 +231,9 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "table") (:file "equality") (:file "arithmetic")
                              (:file "comparison") (:file "division") (:file "types")
-                             (:file "conses") (:file "fluent-operators")))
+                             (:file "conses") (:file "sequences") (:file "arrays")
+                             (:file "hash-tables") (:file "instances") (:file "symbols")
+                             (:file "choices") (:file "output") (:file "fluent-operators")))
                (:module "evaluator"
                 :serial t
                 :components ((:file "scope") (:file "evaluator") (:file "functions")
@@ -309,7 +311,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "symbolic-execution"
                 :serial t
                 :components ((:file "evaluator") (:file "exploration") (:file "parallel")
-                             (:file "table") (:file "open-theories")))
+                             (:file "table") (:file "open-theories")
+                             (:file "values") (:file "lifted-programs") (:file "lifted")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")

@@ -135,8 +135,11 @@
        (if (member name *transparent-functions*)
            (analyze-transparent-call name arguments)
            (lambda (frame)
-             (call-function (global-function name) (evaluate-arguments arguments frame)
-                            description)))))))
+             (let ((version (lifted-function name)))
+               (if version
+                   (apply (the function version) (evaluate-arguments arguments frame))
+                   (call-function (global-function name) (evaluate-arguments arguments frame)
+                                  description)))))))))
 
 ;;; Plans
 

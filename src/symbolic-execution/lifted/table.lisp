@@ -97,20 +97,28 @@ which those whose names do not begin with ANY are decided first."
 (defun lifted-function (name)
   "Return the function that understands symbolic arguments for the global function NAME, a symbol
 or (setf symbol), or NIL if it is the function itself or there is none."
-  (second (gethash name *lifted-functions*)))
+  (let ((entry (gethash name *lifted-functions*)))
+    (if entry
+        (second entry)
+        (nth-value 1 (definition-version name)))))
 
 (defun function-kind (name)
   "Return :LIFTED, :TRANSPARENT or :OPAQUE for the global function NAME, a symbol or (setf symbol):
 may it be given symbolic arguments?"
-  (cond ((first (gethash name *lifted-functions*)))
-        ((structure-function-p name) :transparent)
-        (t :opaque)))
+  (let ((entry (gethash name *lifted-functions*)))
+    (if entry
+        (first entry)
+        (values (definition-version name)))))
 
-(defun structure-function-p (name)
-  "Return true if NAME is a reader of structures whose slot may hold a symbolic value."
-  (and (symbolp name)
-       (consp (sb-int:info :function :source-transform name))
-       t))
+(defun definition-version (name)
+  "Return the kind of the function NAME, which is not in the table, and its version, by what it is
+defined as: functions of structures and accessors of classes are transparent."
+  (let ((structure-version (structure-version name))
+        (function (and (fboundp name) (fdefinition name))))
+    (cond (structure-version (values :transparent structure-version))
+          ((and (typep function 'standard-generic-function) (accessor-p function))
+           (values :transparent (accessor-version function)))
+          (t (values :opaque nil)))))
 
 (defun call-opaque (function arguments description)
   "Call FUNCTION, which may be compiled, with the list ARGUMENTS, in which everything symbolic is
@@ -131,9 +139,18 @@ symbolic values."
                   (or (lifted-function function) (fdefinition function)))))
     (function (cond ((gethash function *known-functions*))
                     ((not *path*) function)
+                    ((named-version function))
                     (t (lambda (&rest arguments)
                          (call-opaque function arguments (function-description function))))))
     (t function)))
+
+(defun named-version (function)
+  "Return the version of FUNCTION, not in the table, if it has one because of its definition."
+  (let ((name (sb-kernel:%fun-name function)))
+    (and (typep name '(or symbol (cons (eql setf))))
+         (fboundp name)
+         (eq (fdefinition name) function)
+         (nth-value 1 (definition-version name)))))
 
 (defun function-description (function)
   "Return how FUNCTION is called in the description of a decision."

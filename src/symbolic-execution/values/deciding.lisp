@@ -1,8 +1,9 @@
 ;;;; Deciding symbolic values: which of several is it on this path?
 ;;;;
 ;;;; TRUTH decides whether a value is true, SETTLED what it is.  A finite choice is decided
-;;;; completely.  Numbers that can have many values are decided for the first *NUMBER-LIMIT* of
-;;;; them, in an order that depends on the path alone, and the exploration is not complete then.
+;;;; completely, and so is a number with few possible values.  Of an integer with many the first
+;;;; *NUMBER-LIMIT* are taken, of a real one, by an order that depends on the path alone; and the
+;;;; exploration is not complete then.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -56,13 +57,35 @@ there is none."
 (defun settled-number (number description)
   (let ((term (symbolic-number-term number)))
     (multiple-value-bind (low high) (type-bounds (symbolic-number-type number))
-      (cond ((not (integer-term-p term)) (settled-real number description))
-            ((and low high (< (- high low) *number-limit*))
-             (decide *path* description
-                     (loop for value from low to high
-                           collect (cons value (z3:equals term value)))
-                     :exhaustive t))
-            (t (settled-integer term description))))))
+      (if (and (integer-term-p term) low high (< (- high low) *number-limit*))
+          (decide-number term (loop for value from low to high collect value) description)
+          (let ((values (outside-the-plan (*path*) (all-values *path* term))))
+            (cond ((listp values) (decide-number term values description))
+                  ((integer-term-p term) (settled-integer term description))
+                  (t (settled-real term description))))))))
+
+(defun decide-number (term values description)
+  "Decide which of VALUES, the only possible ones, the numeric TERM is."
+  (decide *path* description
+          (loop for value in values collect (cons value (z3:equals term value)))
+          :exhaustive t))
+
+(defun all-values (path term)
+  "Return the possible values of the numeric TERM on PATH in ascending order, or :MANY if they are
+more than *NUMBER-LIMIT*."
+  (let ((solver (path-solver path)) (values '()))
+    (z3:push-scope solver)
+    (unwind-protect
+         (loop repeat *number-limit*
+               do (unless (eq (z3:check solver) :sat)
+                    (return (sort values #'<)))
+                  (let ((value (z3:model-value solver term)))
+                    (unless (rationalp value)
+                      (return :many))
+                    (push value values)
+                    (z3:solver-assert solver (z3:negation (z3:equals term value))))
+               finally (return (if (eq (z3:check solver) :sat) :many (sort values #'<))))
+      (z3:pop-scope solver))))
 
 (defun integer-term-p (term)
   (eq (z3:sort-kind (z3:term-sort term)) :integer))
@@ -107,17 +130,13 @@ two, or NIL."
                        (setf low middle))))
         (if (possible-p path (z3:equals term high)) high (- high))))))
 
-(defun settled-real (number description)
-  "Return a value of the real NUMBER: the one with the least denominator, and of these the one
-nearest to 0.  The exploration is not complete unless it is the only one."
-  (let* ((path *path*) (term (symbolic-number-term number))
-         (value (outside-the-plan (path) (simplest-rational path term)))
-         (equal (z3:equals term value)))
-    (unless value
-      (abandon path :dead-end))
-    (when (outside-the-plan (path) (possible-p path (z3:negation equal)))
-      (note-limit path (format nil "other values of a number than ~a, at ~a" value description)))
-    (decide path description (list (cons value equal)))))
+(defun settled-real (term description)
+  "Return a value of the real TERM, which has many: the one with the least denominator, and of
+these the one nearest to 0.  The exploration is not complete."
+  (let* ((path *path*)
+         (value (outside-the-plan (path) (simplest-rational path term))))
+    (note-limit path (format nil "other values of a number than ~a, at ~a" value description))
+    (decide path description (list (cons value (z3:equals term value))))))
 
 (defparameter *largest-denominator* 64
   "Values with greater denominators are not looked for.")
