@@ -33,6 +33,28 @@
                          collect (cons value rest)))
       (list '())))
 
+(defvar *state* nil
+  "Objects that exist before a run: expressions may change them.")
+
+(defun fresh-state ()
+  "Return objects of many kinds, as they are before each run."
+  (let ((table (make-hash-table :test 'equal)) (other-table (make-hash-table)))
+    (setf (symbol-plist 'fresh-mark) '() (get 'thing :marks) '()
+          (gethash "a" table) 1 (gethash '(:a) table) 2
+          (gethash :a other-table) 1 (gethash :b other-table) 2)
+    (list :list (list 1 2 3 4) :tree (list (list :a 1) (list :b (list 2)))
+          :table table :other-table other-table
+          :vector (vector 3 1 2) :fixnums (make-array 3 :element-type 'fixnum)
+          :fill (make-array 4 :fill-pointer 2 :initial-element 0 :adjustable t)
+          :matrix (make-array '(2 2) :initial-element 0)
+          :bits (make-array 4 :element-type 'bit :initial-element 0)
+          :string (copy-seq "abcd")
+          :point (make-point :px 1) :thing (make-instance 'thing :weight 1)
+          :plist (list :a 1 :b 2))))
+
+(defun state (key)
+  (getf *state* key))
+
 (defun run-expression (function path values)
   "Call FUNCTION with VALUES on PATH and return (:values . values), (:error) or (:abandoned), as a
 tree in which symbolic values may stand."
@@ -131,6 +153,7 @@ the list of what was left out; and the arguments."
                     (interpreted-lambda (mapcar #'first arguments) form)))
          (assignments (assignments arguments))
          (domain (make-lamp-domain))
+         (*state* (fresh-state)) (state-before (plain-tree *state*))
          (pending (list '())) (results '()) (limits '()))
     (setf *decision-count* 0)
     (z3:with-context (context)
@@ -163,6 +186,8 @@ the list of what was left out; and the arguments."
                        (z3:pop-scope solver))
                      (push (nreverse covered) results)))
                  (z3:pop-scope solver))))
+    (unless (equal state-before (plain-tree *state*))
+      (push "the state before the run has changed" limits))
     (values (nreverse results) limits arguments)))
 
 (defun compiled-lambda (names form)
@@ -175,8 +200,9 @@ the list of what was left out; and the arguments."
 
 (defun concrete-outcome (function values)
   "Return the outcome of the compiled FUNCTION with VALUES, as a tree."
-  (plain-tree (handler-case (cons :values (multiple-value-list (apply function values)))
-                (error () (list :error)))))
+  (let ((*state* (fresh-state)))
+    (plain-tree (handler-case (cons :values (multiple-value-list (apply function values)))
+                  (error () (list :error))))))
 
 (defun expression-problem (form)
   "Return NIL if the paths of FORM are what brute force says, else a text that says what is wrong;

@@ -83,11 +83,10 @@
 
 (defun call-function (function arguments description)
   "Call FUNCTION with ARGUMENTS; a compiled function gets no symbolic value."
-  (cond ((typep function 'interpreted-function)
-         (apply (interpreted-function-code function) arguments))
-        ((gethash function *known-functions*)
-         (apply (the function (gethash function *known-functions*)) arguments))
-        (t (call-opaque function arguments description))))
+  (let ((version (known-version function)))
+    (if version
+        (apply (the function version) arguments)
+        (call-opaque function arguments description))))
 
 (defun analyze-arguments (forms scope)
   (mapcar (lambda (form) (analyze form scope)) forms))

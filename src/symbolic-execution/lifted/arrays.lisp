@@ -116,12 +116,17 @@ indices and the value, which comes first if VALUE-FIRST.  Without a path SETTER 
     (vector-push (fitting-element any-value vector) vector)))
 
 (defun note-vector-end (vector)
-  "Note the fill pointer of VECTOR and the element behind it."
+  "Note the size of VECTOR, its fill pointer and the element behind it."
   (when *path*
-    (let ((index (fill-pointer vector)))
-      (when (< index (array-total-size vector))
-        (note-place (row-major-aref vector index)))
-      (note-place (fill-pointer vector)))))
+    (let* ((fill-pointer (fill-pointer vector)) (size (array-total-size vector))
+           (full (= fill-pointer size))
+           (old (if full nil (row-major-aref vector fill-pointer))))
+      (note-undo (lambda ()
+                   (unless (= (array-total-size vector) size)
+                     (adjust-array vector size :fill-pointer 0))
+                   (setf (fill-pointer vector) fill-pointer)
+                   (unless full
+                     (setf (row-major-aref vector fill-pointer) old)))))))
 
 (define-transparent (vector-push-extend) (any-value vector &optional (extension 1 extension-p))
   (let ((vector (settled vector "a vector")))
@@ -144,3 +149,23 @@ indices and the value, which comes first if VALUE-FIRST.  Without a path SETTER 
         (note-undo (lambda () (adjust-array array old)))))
     (apply #'adjust-array array (settled dimensions "the dimensions of an array")
            (settled-each keywords "an argument of adjust-array"))))
+
+;;; Functions that understand nothing symbolic, and change an array
+
+(defmacro define-changing (&rest definitions)
+  "Let functions note what they change: each definition is a number, of the argument that is changed
+if it is an array, and names."
+  `(progn
+     ,@(loop for (number . names) in definitions
+             append (loop for name in names
+                          collect `(define-transparent (,name) (&rest arguments)
+                                     (let ((array (nth ,number arguments)))
+                                       (when (and *path* (arrayp array))
+                                         (note-array array)))
+                                     (call-opaque #',name arguments
+                                                  ,(describe-decision name)))))))
+
+(define-changing
+  (0 nstring-upcase nstring-downcase nstring-capitalize read-sequence)
+  (1 bit-not)
+  (2 bit-and bit-ior bit-xor bit-eqv bit-nand bit-nor bit-andc1 bit-andc2 bit-orc1 bit-orc2))

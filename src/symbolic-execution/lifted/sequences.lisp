@@ -7,7 +7,8 @@
 ;;;;
 ;;;; The arguments of a function have ROLES: :ANY, nothing is done; :ONE, settled; :SEQUENCE, a
 ;;;; settled sequence or list; :CHANGED, the same, which the function changes; :FUNCTION; :TEST, a
-;;;; function of which only the truth matters; :VALUE-TEST, one whose value is returned.
+;;;; function of which only the truth matters; :VALUE-TEST, one whose value is returned; :JOINED, one
+;;;; that returns lists to be joined by NCONC; :TREE, a tree that the function changes.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -61,7 +62,28 @@ which is true then, else whether it is true."
                 sequence))
     (:function (if (null value) nil (code-of (settled value description))))
     (:test (deciding-function (settled value description) nil))
-    (:value-test (deciding-function (settled value description) t))))
+    (:value-test (deciding-function (settled value description) t))
+    (:joined (joined-lists (code-of (settled value description))))
+    (:tree (note-tree value)
+     value)))
+
+(defun joined-lists (function)
+  "Return a function that returns the lists that FUNCTION does, whose ends are going to be changed."
+  (lambda (&rest arguments)
+    (let ((list (settled (apply (the function function) arguments) "a list to be joined")))
+      (when (consp list)
+        (let ((last (last list)))
+          (note-place (cdr last))))
+      list)))
+
+(defun note-tree (tree)
+  "Note that the conses of TREE are to be as they are after the run."
+  (when *path*
+    (loop while (consp tree)
+          do (note-place (car tree))
+             (note-place (cdr tree))
+             (note-tree (car tree))
+             (setf tree (cdr tree)))))
 
 (defun prepared-keywords (keywords description)
   "Return the keyword arguments KEYWORDS as prepared."
@@ -136,13 +158,17 @@ else."
   (reduce (:function :sequence))
   ((sort stable-sort) (:changed :test))
   (merge (:one :changed :changed :test))
-  ((mapcar mapc maplist mapl mapcan mapcon) (:function &rest :sequence))
+  ((mapcar mapc maplist mapl) (:function &rest :sequence))
+  ((mapcan mapcon) (:joined &rest :sequence))
   ((some) (:value-test &rest :sequence))
   ((every) (:value-test &rest :sequence))
   ((notany notevery) (:test &rest :sequence))
   (subst (:any :any :any &eql))
   ((subst-if subst-if-not) (:any :test :any))
   (sublis (:sequence :any &eql))
+  (nsubst (:any :any :tree &eql))
+  ((nsubst-if nsubst-if-not) (:any :test :tree))
+  (nsublis (:sequence :tree &eql))
   (tree-equal (:any :any &eql))
   (maphash (:function :one)))
 

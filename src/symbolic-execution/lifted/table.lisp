@@ -128,21 +128,18 @@ decided first, and return its values."
              (mapcar (lambda (argument) (decided argument description)) arguments)
              arguments)))
 
-(defun code-of (function)
-  "Return the function to be called for FUNCTION, an object or a name: one that may be given
-symbolic values."
-  (typecase function
-    (interpreted-function (interpreted-function-code function))
-    (symbol (let ((kind (function-kind function)))
-              (if (eq kind :opaque)
-                  (code-of (global-function function))
-                  (or (lifted-function function) (fdefinition function)))))
-    (function (cond ((gethash function *known-functions*))
-                    ((not *path*) function)
-                    ((named-version function))
-                    (t (lambda (&rest arguments)
-                         (call-opaque function arguments (function-description function))))))
-    (t function)))
+(defvar *named-versions* (make-hash-table :test 'eq :weakness :key :synchronized t)
+  "The version, or NIL, of functions that are not in the table.")
+
+(defun known-version (function)
+  "Return the function to be called for FUNCTION, an object, if that may be given symbolic values,
+or NIL."
+  (cond ((typep function 'interpreted-function) (interpreted-function-code function))
+        ((gethash function *known-functions*))
+        (t (multiple-value-bind (version known) (gethash function *named-versions*)
+             (if known
+                 version
+                 (setf (gethash function *named-versions*) (named-version function)))))))
 
 (defun named-version (function)
   "Return the version of FUNCTION, not in the table, if it has one because of its definition."
@@ -151,6 +148,18 @@ symbolic values."
          (fboundp name)
          (eq (fdefinition name) function)
          (nth-value 1 (definition-version name)))))
+
+(defun code-of (function)
+  "Return the function to be called for FUNCTION, an object or a name: one that may be given
+symbolic values."
+  (typecase function
+    (symbol (let ((version (lifted-function function)))
+              (or version (code-of (global-function function)))))
+    (function (cond ((known-version function))
+                    ((not *path*) function)
+                    (t (lambda (&rest arguments)
+                         (call-opaque function arguments (function-description function))))))
+    (t function)))
 
 (defun function-description (function)
   "Return how FUNCTION is called in the description of a decision."
