@@ -210,18 +210,19 @@ The environment variable CXX names another compiler than g++."))
 
 (asdf:defsystem "discrepancy-finder/symbolic-execution"
   :description "Plans on all inputs at once, along the paths that a theory allows."
-  :depends-on ("discrepancy-finder/event-calculus" "discrepancy-finder/plan-language" "alexandria"
-               (:require "sb-cltl2"))
+  :depends-on ("discrepancy-finder/event-calculus" "discrepancy-finder/plan-language"
+               "discrepancy-finder/json" "alexandria" (:require "sb-cltl2"))
   :pathname "src/symbolic-execution/"
   :serial t
   :components ((:file "package") (:file "conditions")
                (:module "actions"
                 :serial t
-                :components ((:file "action-theory") (:file "bindings") (:file "define-action")
+                :components ((:file "action-theory") (:file "bindings") (:file "clauses")
+                             (:file "checks") (:file "define-action") (:file "returned-values")
                              (:file "outcomes")))
                (:module "paths"
                 :serial t
-                :components ((:file "path") (:file "decisions") (:file "journal")))
+                :components ((:file "oracle") (:file "path") (:file "decisions") (:file "journal")))
                (:module "values"
                 :serial t
                 :components ((:file "symbolic-values") (:file "deciding")
@@ -236,11 +237,18 @@ The environment variable CXX names another compiler than g++."))
                              (:file "choices") (:file "output") (:file "fluent-operators")))
                (:module "evaluator"
                 :serial t
-                :components ((:file "scope") (:file "evaluator") (:file "functions")
-                             (:file "special-operators") (:file "conditions-in-plans")))
+                :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
+                             (:file "calls") (:file "inline") (:file "bindings")
+                             (:file "functions") (:file "special-operators")
+                             (:file "conditions-in-plans")))
                (:module "exploration"
                 :serial t
-                :components ((:file "perform") (:file "trace") (:file "exploration")))))
+                :components ((:file "perform") (:file "interleavings") (:file "trace")
+                             (:file "arguments") (:file "least-models")
+                             (:file "states-along") (:file "traces-of-paths") (:file "orders")
+                             (:file "runs") (:file "exploration") (:file "initial-states")
+                             (:file "next-trace")
+                             (:file "verification") (:file "trace-json")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -312,7 +320,8 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "evaluator") (:file "exploration") (:file "parallel")
                              (:file "table") (:file "open-theories")
-                             (:file "values") (:file "lifted-programs") (:file "lifted")))
+                             (:file "values") (:file "lifted-programs") (:file "lifted")
+                             (:file "define-action") (:file "random-plans")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")
@@ -334,4 +343,5 @@ The environment variable CXX names another compiler than g++."))
   :pathname "bench/"
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "household")
-               (:file "bounded") (:file "progression") (:file "benchmarks")))
+               (:file "clingo") (:file "bounded") (:file "progression")
+               (:file "exploration") (:file "benchmarks")))

@@ -36,6 +36,35 @@ counted."
                (per-call (median-seconds (lambda ()
                                            (dotimes (i calls) (bullet:body-pose body)))))))))))))
 
+(defun ast-node-microseconds ()
+  "Return the processor time (us) of making one node of a Z3 term: by the functions on terms, which
+own references and check sorts, and by raw calls."
+  (let ((count 2000))
+    (z3:with-context (context)
+      (let ((terms (loop for index below (1+ count)
+                         collect (z3:variable context (format nil "p~d" index)))))
+        (flet ((per-node (function)
+                 (/ (median (loop repeat 9
+                                  collect (z3:with-released-terms (context)
+                                            (processor-milliseconds function))))
+                    (* 2 count 1d-3))))
+          (values
+           (per-node (lambda ()
+                       (loop for (p q) on terms
+                             while q do (z3:conjunction (list p (z3:negation q))))))
+           (z3::calling-z3 (pointer context)
+             (foreign:with-c-float-traps
+               (cffi:with-foreign-object (arguments :pointer 2)
+                 (per-node
+                  (lambda ()
+                    (loop for (p q) on terms
+                          while q
+                          do (let ((negation (z3::z3-mk-not pointer (z3::term-pointer q))))
+                               (z3::z3-inc-ref pointer negation)
+                               (setf (cffi:mem-aref arguments :uint64 0) (z3::term-pointer p)
+                                     (cffi:mem-aref arguments :uint64 1) negation)
+                               (z3::z3-inc-ref pointer (z3::z3-mk-and pointer 2 arguments)))))))))))))))
+
 (defun compiled-peer ()
   "Compile steps.cpp, if it has changed, and return the program's path."
   (let ((source (asdf:system-relative-pathname "discrepancy-finder" "bench/steps.cpp"))
@@ -86,6 +115,8 @@ by pair."
   (multiple-value-bind (z3 bullet) (foreign-call-nanoseconds)
     (format stream "foreign call              ~,1f ns (Z3, error code), ~,1f ns (Bullet, pose of a ~
                     body)~%" z3 bullet))
+  (multiple-value-bind (terms raw) (ast-node-microseconds)
+    (format stream "node of a Z3 term         ~,2f us, ~,2f us by raw calls~%" terms raw))
   (multiple-value-bind (ours theirs ratio) (compare-steps)
     (format stream "Bullet steps              ~,0f /s through Lisp, ~,0f /s in plain C++, ~
                     time ratio ~,3f~%" ours theirs ratio))
@@ -97,4 +128,5 @@ by pair."
           (* 1d3 (median-seconds (lambda () (example-trace)) :rounds 21)))
   (print-plan-benchmarks stream)
   (print-bounded-benchmarks stream)
-  (print-progression-benchmarks stream))
+  (print-progression-benchmarks stream)
+  (print-exploration-benchmarks stream))

@@ -1,7 +1,8 @@
 ;;;; Benchmarks of the bounded engine: one open question at a horizon, shortest plans, grounding.
 ;;;;
-;;;; The peer of the questions is Z3 fed in the plain way, in the same run: the same clauses, each a
-;;;; term of its own, without unit propagation before.  Times are processor time.
+;;;; The peers of the questions run in turn with us: Z3 fed in the plain way (the same clauses, each
+;;;; a term of its own, without unit propagation before), and clingo where that program is
+;;;; installed.  Times are processor time.
 
 (in-package #:discrepancy-finder.bench)
 
@@ -15,6 +16,8 @@
 one is not known.")
 
 (defun processor-milliseconds (function)
+  "Return the processor time (ms) of a call of FUNCTION, without garbage from before."
+  (sb-ext:gc :full t)
   (let ((start (foreign:processor-seconds)))
     (funcall function)
     (* 1d3 (- (foreign:processor-seconds) start))))
@@ -135,24 +138,48 @@ their number."
                          (ec:models (ec:read-e-theory file) :limit nil)))))
             (length files))))
 
-(defun print-bounded-benchmarks (stream)
-  (loop for (last goal) in *household-goals*
+(defun ground-goal (goal)
+  (let ((theory (ec:find-theory :household-at-home)))
+    (ec:ground-formula (ec:ground theory) (ec:parse-formula goal theory))))
+
+(defun question-figures (last goal seed clingo-p)
+  "Return the times (ms) of building and asking, the same for the plain way, and that of clingo or
+NIL."
+  (append (multiple-value-list (open-question last goal seed))
+          (multiple-value-list (plain-question last goal seed))
+          (list (and clingo-p
+                     (clingo-milliseconds (ec:ground (ec:find-theory :household-at-home))
+                                          (ground-goal goal) last seed)))))
+
+(defun print-open-questions (stream)
+  (loop with clingo-p = (clingo-installed-p)
+        for (last goal) in *household-goals*
         for rounds = (loop for seed from 1 to 5
-                           collect (append (multiple-value-list (open-question last goal seed))
-                                           (multiple-value-list
-                                            (plain-question last goal seed))))
-        do (destructuring-bind (build check plain-build plain-check)
-               (loop for place below 4
-                     collect (median (mapcar (lambda (round) (nth place round)) rounds)))
+                           collect (question-figures last goal seed clingo-p))
+        do (flet ((median-of (function) (median (mapcar function rounds))))
              (format stream "open events, T = ~d       build ~,0f ms, question ~,0f ms; term by ~
-                             term ~,0f and ~,0f ms, ratio of sums ~,2f~%"
-                     last build check plain-build plain-check
-                     (median (loop for (a b c d) in rounds collect (/ (+ a b) (+ c d)))))))
+                             term ~,0f and ~,0f ms, ratio of sums ~,2f~@[; clingo ~,0f ms, ratio ~
+                             ~,2f~]~%"
+                     last
+                     (median-of #'first) (median-of #'second)
+                     (median-of #'third) (median-of #'fourth)
+                     (median-of (lambda (figures)
+                                  (destructuring-bind (a b c d e) figures
+                                    (declare (ignore e))
+                                    (/ (+ a b) (+ c d)))))
+                     (and clingo-p (median-of #'fifth))
+                     (and clingo-p
+                          (median-of (lambda (figures)
+                                       (/ (+ (first figures) (second figures))
+                                          (fifth figures)))))))))
+
+(defun print-bounded-benchmarks (stream)
+  (print-open-questions stream)
   (multiple-value-bind (seconds length) (shortest-plan-seconds)
     (format stream "shortest plan             ~d steps, ~,2f s with all shorter horizons~%" length
             seconds))
-  (format stream "trajectory, 41 x 42       ~,0f ms with a fluent for each height, ~,0f ms with one ~
-                  real a timepoint~%"
+  (format stream "trajectory, 41 x 42       ~,0f ms with a fluent for each height, ~,0f ms with ~
+                  one real a timepoint~%"
           (processor-milliseconds (lambda () (ec:count-models :falling-apple)))
           (processor-milliseconds (lambda () (ec:count-models :falling-apple-in-numbers))))
   (multiple-value-bind (seconds count) (scenarios-seconds)

@@ -254,7 +254,8 @@ sort a1x
   (flet ((theory (label)
            (ec:make-checked-theory
             :name :strange :events '((:go)) :completions '((nil :happens) (:theta :happens))
-            :axioms (list (ec::make-axiom :name :seen :label ec::+facts+ :formula '(:happens (:go) 0))
+            :axioms (list (ec::make-axiom :name :seen :label ec::+facts+
+                                          :formula '(:happens (:go) 0))
                           (ec::make-axiom :name :done :label label
                                           :formula '(:happens (:go) 1))
                           (ec::make-axiom :name :other :label :theta :formula '(:= 1 1))))))

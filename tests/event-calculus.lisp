@@ -10,7 +10,8 @@
   (:events (toggle lamp) (smash lamp) (press switch lamp))
   (:axioms
    (starts-dark (initially (forall (?lamp) (not (lit ?lamp)))))
-   (toggle-on (implies (and (not (holds-at (lit ?lamp) ?time)) (not (holds-at (broken ?lamp) ?time)))
+   (toggle-on (implies (and (not (holds-at (lit ?lamp) ?time))
+                            (not (holds-at (broken ?lamp) ?time)))
                        (initiates (toggle ?lamp) (lit ?lamp) ?time)))
    (toggle-off (implies (holds-at (lit ?lamp) ?time)
                         (terminates (toggle ?lamp) (lit ?lamp) ?time)))
@@ -31,7 +32,8 @@
 
 (defun after (ground state event)
   "Return the fluents true after EVENT in STATE, and true if the theory allows it."
-  (multiple-value-bind (next conditions) (ec:progress state (and event (ec:find-event ground event)))
+  (multiple-value-bind (next conditions)
+      (ec:progress state (and event (ec:find-event ground event)))
     (values (ec:state-fluents next) (every #'cdr conditions))))
 
 (test progression
@@ -184,5 +186,6 @@
       (signals-with (ec:theory-error "state constraint c" "(+ ?time n)")
         (parse 'c '(?time) '(holds-at (lit a) (- ?time 1))))
       (is (= 3 (ec:state-constraint-span
-                (parse 'c '(?time) '(or (happens (toggle a) (+ ?time 2)) (holds-at (dark) ?time))))))
+                (parse 'c '(?time)
+                       '(or (happens (toggle a) (+ ?time 2)) (holds-at (dark) ?time))))))
       (is (= 0 (ec:state-constraint-span (parse 'c '(?time) '(holds-at (dark) ?time))))))))

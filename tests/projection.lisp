@@ -127,9 +127,10 @@
   (flet ((distance-of-the-box (x)
            (sqrt (+ (expt (- x 1.5) 2) 0.16)))
          (picked-up-p (x reach)
-           (projection:with-projection (projection (two-regions-scene :reach reach)
-                                                   :poses (list :robot (geometry:make-pose 1.5 0 0)
-                                                                :box (geometry:make-pose x 0.4 0.46)))
+           (projection:with-projection
+               (projection (two-regions-scene :reach reach)
+                           :poses (list :robot (geometry:make-pose 1.5 0 0)
+                                        :box (geometry:make-pose x 0.4 0.46)))
              (projection:settle projection)
              (handler-case (progn (perform-in projection (picking-up-the-box)) t)
                (plan:manipulation-pose-unreachable () nil)))))
@@ -236,8 +237,8 @@
     (scene-problem-of "(define-scene s (:item box))" "name \"file.urdf\"")
     (scene-problem-of (format nil "(define-scene s (:item box ~s))" box) ":item box" ":at")
     (scene-problem-of (format nil "(define-scene s (:item box ~s (:at 0 0)))" box) "(:at x y z")
-    (scene-problem-of (format nil "(define-scene s (:item box ~s (:at 0 0 1)) (:item box ~:*~s (:at ~
-                                   1 0 1)))" box) "same name")
+    (scene-problem-of (format nil "(define-scene s (:item box ~s (:at 0 0 1)) ~
+                                   (:item box ~:*~s (:at 1 0 1)))" box) "same name")
     (scene-problem-of "(define-scene s (:parameters (reach far)))" "name positive-number")
     (scene-problem-of (format nil "(define-scene s (:robot r ~s (:at 0 0 0) (:lift \"a\") ~
                                    (:shoulder \"b\") (:extension \"c\") (:gripper \"d\")))" box)

@@ -16,7 +16,7 @@ move-leaves\", or NIL.")
    (reason :initarg :reason :reader theory-error-reason
            :documentation "What is wrong, as a string without a full stop.")
    (position :initarg :position :initform nil :reader theory-error-position
-             :documentation "The source position of the sub-form, the axiom or the clause, or NIL."))
+             :documentation "The source position of sub-form, axiom or clause, or NIL."))
   (:report (lambda (condition stream)
              (with-slots (theory axiom form reason position) condition
                (format stream "~@[~a: ~]theory ~a~@[, ~a~]~@[, in ~a~]: ~a."
@@ -78,14 +78,14 @@ known, the axiom, the sub-form and what was expected."))
 (define-condition undetermined (event-calculus-error)
   ((atom :initarg :atom :reader undetermined-atom :documentation "The ground atom, a list.")
    (kind :initarg :kind :reader undetermined-kind
-         :documentation ":FLUENT, :RELEASED, :EVENT, :PREDICATE, :STATIC (a timeless atom), :NUMBER or
-:NUMBER-RELEASED.")
+         :documentation ":FLUENT, :RELEASED, :EVENT, :PREDICATE, :STATIC (a timeless atom), :NUMBER
+or :NUMBER-RELEASED.")
    (time :initarg :time :reader undetermined-time :documentation "The timepoint, or NIL.")
    (theory :initarg :theory :reader undetermined-theory :documentation "The theory's name."))
   (:report (lambda (condition stream)
              (with-slots (atom kind time theory) condition
-               (format stream "Theory ~a leaves open ~a~@[ at ~d~], and the state has no Z3 context ~
-                               for a variable."
+               (format stream "Theory ~a leaves open ~a~@[ at ~d~], and the state has no Z3 ~
+                               context for a variable."
                        (name-text theory)
                        (format nil (ecase kind
                                      (:fluent "whether ~a holds")

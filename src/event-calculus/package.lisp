@@ -8,7 +8,8 @@ them and why, and what they say of a state after known events.")
    ;; theories
    #:define-theory #:load-theory #:find-theory #:make-checked-theory #:register-theory
    #:theory #:theory-name #:theory-documentation #:theory-syntax #:theory-file
-   #:theory-sorts #:theory-predicates #:theory-extensions #:theory-functions #:theory-fluents #:theory-non-inertial
+   #:theory-sorts #:theory-predicates #:theory-extensions #:theory-functions
+   #:theory-fluents #:theory-non-inertial
    #:theory-manual-release #:theory-events #:theory-axioms #:theory-completions
    #:theory-exclusions #:theory-time-range #:theory-offset-range #:theory-options
    #:sort-elements #:element-sort #:sort-name #:sort-parents #:sort-range #:sort-constants
@@ -19,7 +20,8 @@ them and why, and what they say of a state after known events.")
    ;; formulas
    #:parse-formula #:formula-text
    ;; state constraints
-   #:define-state-constraint #:find-state-constraint #:state-constraint #:state-constraint-name
+   #:define-state-constraint #:parse-state-constraint #:find-state-constraint
+   #:state-constraint #:state-constraint-name
    #:state-constraint-formula #:state-constraint-documentation #:state-constraint-span
    #:state-constraint-theory #:theory-state-constraints #:state-constraint-p
    ;; grounding
@@ -52,8 +54,10 @@ them and why, and what they say of a state after known events.")
    #:state-propositions #:state-in-model #:same-future-p #:ground-numeric-p
    ;; conditions
    #:event-calculus-error #:theory-error #:theory-error-theory #:theory-error-axiom
+   #:theory-error-reason
    #:theory-not-found #:state-constraint-not-found #:unknown-atom
    #:no-horizon #:no-horizon-theory #:no-horizon-horizon
-   #:outside-horizon #:outside-horizon-time #:outside-horizon-horizon #:outside-horizon-event #:closed-reasoner #:closed-reasoner-theory
+   #:outside-horizon #:outside-horizon-time #:outside-horizon-horizon #:outside-horizon-event
+   #:closed-reasoner #:closed-reasoner-theory
    #:undetermined #:undetermined-atom #:undetermined-kind #:undetermined-time
    #:undetermined-theory))

@@ -4,7 +4,8 @@ form knows its file and line.")
   (:use #:cl)
   (:export
    ;; positions
-   #:source-position #:make-source-position #:source-position-file #:source-position-line #:form-position
+   #:source-position #:make-source-position #:source-position-file #:source-position-line
+   #:form-position
    ;; names
    #:name-keyword
    ;; reading

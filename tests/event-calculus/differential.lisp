@@ -24,7 +24,8 @@ the theories of the seeds from 1 to FEW, or to MANY if the long tests are run."
     (loop for model in models collect (number-atoms model oracle))))
 
 (test brute-force-knows-the-classical-answers
-  (flet ((true-in (atom models) (count-if (lambda (model) (member atom model :test #'equal)) models)))
+  (flet ((true-in (atom models)
+           (count-if (lambda (model) (member atom model :test #'equal)) models)))
     (let ((yale (forced-sets '(:fluents (alive) (loaded)) '(:events (load) (sneeze) (shoot))
                              '(:axioms (initially (and (alive) (not (loaded))))
                                (initiates (load) (loaded) ?time)

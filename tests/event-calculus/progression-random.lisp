@@ -187,3 +187,11 @@ which the engines differ.  A theory that is malformed is :MALFORMED."
                (is (not (stringp result)) "~a" result)
                (when (eq result :exact) (incf exact))))
     (is (< (* 6/10 seeds) exact) "only ~d of ~d theories were consistent and exact" exact seeds)))
+
+(test engines-agree-on-the-scenarios
+  (let ((exact 0))
+    (dolist (file (uiop:directory-files (root-file "tests/theories/") "*.lisp"))
+      (let ((result (compare-engines-on-file file)))
+        (is (not (stringp result)) "~a: ~a" (pathname-name file) result)
+        (when (eq result :exact) (incf exact))))
+    (is (<= 45 exact) "progression was exact for ~d scenarios only" exact)))

@@ -126,7 +126,8 @@
 (defun random-comparison (vocabulary)
   (let ((dice (vocabulary-dice vocabulary)))
     (if (chance dice 50)
-        (list (pick dice '(= /=)) (pick dice '(?object ?object1 a)) (pick dice '(?object ?agent a b)))
+        (list (pick dice '(= /=)) (pick dice '(?object ?object1 a))
+              (pick dice '(?object ?agent a b)))
         (let ((levels (list (random-level vocabulary) (random-level vocabulary)))
               (operator (pick dice '(:equal /= < <= > >=))))
           ;; By itself (= (size a) 1) would be the value of the function.

@@ -1,9 +1,9 @@
 ;;;; Ground theories: a theory in which all variables are replaced by elements.
 ;;;;
-;;;; The ground fluents and events are numbered, and so are, as they are met, the ground atoms of the
-;;;; theory's own predicates: those with one argument of sort TIME apart from that time, the others
-;;;; as a whole.  Axioms about one arbitrary timepoint are made ground once, relative to it; those
-;;;; that compare timepoints or name them by number are made ground for each horizon (see
+;;;; The ground fluents and events are numbered, and so are, as they are met, the ground atoms of
+;;;; the theory's own predicates: those with one argument of sort TIME apart from that time, the
+;;;; others as a whole.  Axioms about one arbitrary timepoint are made ground once, relative to it;
+;;;; those that compare timepoints or name them by number are made ground for each horizon (see
 ;;;; axioms.lisp).  Entry point: GROUND, in axioms.lisp.
 ;;;;
 ;;;; A ground formula is T, NIL, one of

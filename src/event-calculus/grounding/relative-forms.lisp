@@ -40,10 +40,11 @@ time variables, and what is added: an integer, or NIL if that depends on other v
                     (values right (and (integerp left) left)))))))))
 
 (defun relative-form-p (theory form &key step)
-  "Return true, the time variable and the distances of the first and the last time from it if FORM is
-about one arbitrary timepoint: it has one free time variable, which only stands in times of atoms.  The times inside of quantifiers
-must be among those outside, with STEP also at the next timepoint, for there only the quantifier's instance is dropped, and not FORM's,
-where they are beyond the horizon."
+  "Return true, the time variable and the distances of the first and the last time from it if FORM
+is about one arbitrary timepoint: it has one free time variable, which only stands in times of
+atoms.  The times inside of quantifiers must be among those outside, with STEP also at the next
+timepoint, for there only the quantifier's instance is dropped, and not FORM's, where they are
+beyond the horizon."
   (let ((variable nil) (outer (list 0 (if step 1 0))) (inner (list 0 0)))
     (labels ((fail () (return-from relative-form-p nil))
              (check-time-term (term bound duration)

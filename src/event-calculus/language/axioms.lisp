@@ -38,9 +38,9 @@ or NIL if it is none."
 
 (defun axiom-clauses (axiom theory)
   "Return the clauses of AXIOM: a list of (kind condition head . other-heads).  KIND is :EFFECT,
-:TRAJECTORY, :INITIALLY, :VALUE (of a function) or :SENTENCE.  The condition of the last two is T; the head of a
-:VALUE is an equation with the function on the left, or implies one under a condition that only
-compares terms."
+:TRAJECTORY, :INITIALLY, :VALUE (of a function) or :SENTENCE.  The condition of the last two is T;
+the head of a :VALUE is an equation with the function on the left, or implies one under a condition
+that only compares terms."
   (labels ((heads (form condition)
              (case (first form)
                (:forall (heads (third form) condition))

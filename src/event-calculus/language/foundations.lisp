@@ -3,9 +3,9 @@
 (in-package #:discrepancy-finder.event-calculus)
 
 (define-theory causal-constraints
-  "Effects at the same instant (Thielscher; Shanahan 1999, section 4; Mueller, Commonsense Reasoning,
-section 6.5): a fluent is started at a timepoint if it holds or an event initiates it then, and
-initiated if it is started and no event terminates it then; stopped and terminated are the
+  "Effects at the same instant (Thielscher; Shanahan 1999, section 4; Mueller, Commonsense
+Reasoning, section 6.5): a fluent is started at a timepoint if it holds or an event initiates it
+then, and initiated if it is started and no event terminates it then; stopped and terminated are the
 opposites.  Sentences about them make events happen without delay."
   (:predicates (started fluent time) (stopped fluent time)
                (initiated fluent time) (terminated fluent time))

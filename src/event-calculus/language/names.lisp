@@ -2,8 +2,8 @@
 ;;;;
 ;;;; The names of a theory are compared by their characters, whatever package they were read in, so
 ;;;; that a theory can be used from any package: inside the layer they are keywords.  A ground atom
-;;;; is a list of keywords, integers and such lists, (:robot-in :r1), never a concatenated string, so
-;;;; that different atoms cannot be mistaken for each other.  In texts a name without lower-case
+;;;; is a list of keywords, integers and such lists, (:robot-in :r1), never a concatenated string,
+;;;; so that different atoms cannot be mistaken for each other.  In texts a name without lower-case
 ;;;; letters is printed in lower case; others stand between bars, as Lisp prints them.
 
 (in-package #:discrepancy-finder.event-calculus)

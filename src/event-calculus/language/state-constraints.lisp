@@ -43,14 +43,15 @@
 
 (defun parse-state-constraint (theory definition)
   "Return the state constraint of THEORY written as DEFINITION: (name (?time) [documentation]
-formula)."
+formula).  Signals THEORY-ERROR."
   (destructuring-bind (name &optional variables &rest body) definition
     (unless (and name (symbolp name))
       (theory-problem theory nil nil "~a cannot be the name of a state constraint"
                       (written-text name)))
     (let ((documentation (and (stringp (first body)) (pop body)))
           (blame (format nil "state constraint ~a" (name-text name))))
-      (unless (and (proper-list-p variables) (= (length variables) 1) (time-variable-p (first variables))
+      (unless (and (proper-list-p variables) (= (length variables) 1)
+                   (time-variable-p (first variables))
                    (= (length body) 1))
         (theory-problem theory blame nil "(~a (?time) formula) was expected" (name-text name)))
       (let ((formula (parse-formula (first body) theory :kind :constraint :blame blame)))

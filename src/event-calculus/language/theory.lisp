@@ -27,7 +27,8 @@
     (format stream "~a" (name-text (axiom-name axiom)))))
 
 (defconstant +facts+ :|(:facts)|
-  "The label of the facts of a theory in Lisp, which no .e file can write: they are never completed.")
+  "The label of the facts of a theory in Lisp, which no .e file can write: they are never
+completed.")
 
 (defstruct (theory (:copier nil))
   "A description of a world.  Predicates, fluents and events are (name argument-sort*), functions

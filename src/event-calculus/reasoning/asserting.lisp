@@ -1,8 +1,8 @@
 ;;;; From templates to the solver.
 ;;;;
 ;;;; The propositional variable of a timeless atom is its code; those of timepoint t begin at
-;;;; global size + (t - first timepoint) * step size.  SCHEDULE says which templates are to be copied
-;;;; for which timepoints when a horizon grows, ADD-TO-SOLVER does it.
+;;;; global size + (t - first timepoint) * step size.  SCHEDULE says which templates are to be
+;;;; copied for which timepoints when a horizon grows, ADD-TO-SOLVER does it.
 
 (in-package #:discrepancy-finder.event-calculus)
 

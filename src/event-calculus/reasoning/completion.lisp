@@ -43,8 +43,8 @@
       (:static (numbers (atom-table-atoms (ground-theory-statics ground)))))))
 
 (defun supports (ground kind label &optional (sentences (ground-theory-sentences ground)))
-  "Return a table from the number of an atom of KIND to the list of (sentence . distance) in which it
-occurs positively, in those of SENTENCES whose axiom has LABEL."
+  "Return a table from the number of an atom of KIND to the list of (sentence . distance) in which
+it occurs positively, in those of SENTENCES whose axiom has LABEL."
   (let ((table (make-hash-table)))
     (dolist (sentence sentences table)
       (let ((own (let ((axiom (sentence-axiom sentence)))

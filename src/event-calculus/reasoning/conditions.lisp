@@ -11,11 +11,11 @@
   (:report (lambda (condition stream)
              (with-slots (time horizon event) condition
                (if (and event (eql time (cdr horizon)))
-                   (format stream "No event happens at the last timepoint, ~d: to ask about ~a there ~
-                                   give a longer horizon." time (formula-text event))
+                   (format stream "No event happens at the last timepoint, ~d: to ask about ~a ~
+                                   there give a longer horizon." time (formula-text event))
                    (format stream "Timepoint ~d lies outside of the horizon ~d to ~d."
                            time (car horizon) (cdr horizon))))))
-  (:documentation "Signaled when a question names a timepoint about which a reasoner says nothing."))
+  (:documentation "Signaled when a question names a timepoint that a reasoner says nothing about."))
 
 (define-condition closed-reasoner (event-calculus-error)
   ((theory :initarg :theory :reader closed-reasoner-theory :documentation "The theory's name."))

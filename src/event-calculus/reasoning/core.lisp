@@ -1,8 +1,8 @@
 ;;;; Unsatisfiable cores: instances of axioms that cannot hold together.
 ;;;;
-;;;; In a tracked reasoner the clauses of each source, the instance of an axiom or of an axiom schema
-;;;; of the calculus, hold under a selector.  A GROUND-REASON is a source at a timepoint.  MINIMAL-CORE
-;;;; drops reasons from Z3's core as long as the rest remains inconsistent.
+;;;; In a tracked reasoner the clauses of each source, the instance of an axiom or of an axiom
+;;;; schema of the calculus, hold under a selector.  A GROUND-REASON is a source at a timepoint.
+;;;; MINIMAL-CORE drops reasons from Z3's core as long as the rest remains inconsistent.
 
 (in-package #:discrepancy-finder.event-calculus)
 
@@ -62,8 +62,9 @@ consistent with OTHERS."
     (nreverse needed)))
 
 (defun few-selectors (reasoner core)
-  "Return a minimal core.  First the axioms in CORE are reduced, with all instances of the calculus's
-own schemas at hand, so that no axiom stands where a completion would do; then the schemas."
+  "Return a minimal core.  First the axioms in CORE are reduced, with all instances of the
+calculus's own schemas at hand, so that no axiom stands where a completion would do; then the
+schemas."
   (let ((axioms '()) (schemas '()) (in-core (make-hash-table)))
     (dolist (selector core) (setf (gethash selector in-core) t))
     (map-reasons (lambda (source time selector)

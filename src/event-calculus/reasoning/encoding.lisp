@@ -2,8 +2,8 @@
 ;;;;
 ;;;; DEC5 to DEC12 for each ground fluent, with the completed definitions of initiates, terminates
 ;;;; and releases in place (explanation closure); DEC3 and DEC4 for each trajectory; the sentences;
-;;;; the completion of happens and of other predicates where the theory asks for it.  The released-at
-;;;; atoms of fluents that nothing can release are left out.  Entry point: ENCODE.
+;;;; the completion of happens and of other predicates where the theory asks for it.  The
+;;;; released-at atoms of fluents that nothing can release are left out.  Entry point: ENCODE.
 
 (in-package #:discrepancy-finder.event-calculus)
 
@@ -28,8 +28,8 @@
   (if (effect-time effect) 0 time))
 
 (defun mention-atoms (encoder formula shift)
-  "Let the atoms of FORMULA, moved by SHIFT timepoints, be counted although it is known to be true or
-says nothing: in the Discrete Event Calculus Reasoner other clauses say so."
+  "Let the atoms of FORMULA, moved by SHIFT timepoints, be counted although it is known to be true
+or says nothing: in the Discrete Event Calculus Reasoner other clauses say so."
   (map-atoms (lambda (atom)
                (unless (eq (first atom) :compare)
                  (let ((literal (formula-literal encoder atom shift)))
@@ -240,8 +240,8 @@ them, those of the kind STOP end them."
           (cons :fluent (numbers (ground-theory-fluents ground)))))))
 
 (defun encode-exclusion (encoder kind names thing)
-  "Add that at most one (:MUTEX) or exactly one (:XOR) of the instances of NAMES, T for all events, is
-true; THING says where that comes from."
+  "Add that at most one (:MUTEX) or exactly one (:XOR) of the instances of NAMES, T for all events,
+is true; THING says where that comes from."
   (destructuring-bind (atom-kind . numbers) (excluded-atoms (encoder-ground encoder) names)
     (let* ((template (find-template encoder 0 (if (eq atom-kind :event) 1 0)))
            (literals (loop for number in numbers

@@ -2,8 +2,8 @@
 ;;;;
 ;;;; A FINDING has a severity: an :ERROR leaves no model, a :WARNING is a sentence or an event that
 ;;;; does nothing, a :NOTE may well be meant.  Whether something can ever happen is asked of the
-;;;; theory without its narrative and its facts, with all events open that no axiom triggers, and, as
-;;;; it may need the narrative, of the theory as it is.
+;;;; theory without its narrative and its facts, with all events open that no axiom triggers, and,
+;;;; as it may need the narrative, of the theory as it is.
 
 (in-package #:discrepancy-finder.event-calculus)
 

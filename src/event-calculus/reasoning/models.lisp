@@ -1,7 +1,7 @@
 ;;;; Models: what can be true at the timepoints of a horizon.
 ;;;;
-;;;; As in the Discrete Event Calculus Reasoner an atom that no clause mentions is no variable: it is
-;;;; not counted, and it is false.  Entry points: MODELS, COUNT-MODELS.
+;;;; As in the Discrete Event Calculus Reasoner an atom that no clause mentions is no variable: it
+;;;; is not counted, and it is false.  Entry points: MODELS, COUNT-MODELS.
 
 (in-package #:discrepancy-finder.event-calculus)
 
@@ -63,7 +63,8 @@
 
 (defun model-number (model fluent time)
   "Return the number that the numeric FLUENT, a list of symbols, has in MODEL at TIME: a rational, a
-Z3:ALGEBRAIC-NUMBER, or NIL if no axiom speaks of it.  Other models may have others.  Signals UNKNOWN-ATOM, NO-HORIZON."
+Z3:ALGEBRAIC-NUMBER, or NIL if no axiom speaks of it.  Other models may have others.  Signals
+UNKNOWN-ATOM, NO-HORIZON."
   (check-model-time model time)
   (let ((ground (encoder-ground (model-encoder model))))
     (values (gethash (cons (or (gethash (atom-keywords fluent)
@@ -136,8 +137,9 @@ found a model."
 
 (defun map-models (function reasoner limit minimize &key (complete t))
   "Call FUNCTION with the values and the numbers of each model, LIMIT (or NIL) at most.  Return true
-if there are no more; with COMPLETE false it is not tried to find out after LIMIT models.  MINIMIZE is
-:ALL for all models, or a list of variables for those that are minimal in them.  Models that differ in numbers only are one."
+if there are no more; with COMPLETE false it is not tried to find out after LIMIT models.  MINIMIZE
+is :ALL for all models, or a list of variables for those that are minimal in them.  Models that
+differ in numbers only are one."
   (let ((clause-set (reasoner-clause-set reasoner))
         (variables (atom-variables reasoner))
         (count 0))
@@ -185,8 +187,8 @@ if there are no more; with COMPLETE false it is not tried to find out after LIMI
           '(simple-array fixnum (*))))
 
 (defun minimal-values (reasoner values numbers minimized)
-  "Return the values and the numbers of a model in which no proper subset of the true MINIMIZED variables of VALUES
-could be true instead."
+  "Return the values and the numbers of a model in which no proper subset of the true MINIMIZED
+variables of VALUES could be true instead."
   (let ((solver (reasoner-solver reasoner)) (clause-set (reasoner-clause-set reasoner)))
     (z3:push-scope solver)
     (unwind-protect
@@ -206,10 +208,11 @@ could be true instead."
 
 (defun models (theory &key horizon (limit 10) where minimize (complete t))
   "Return the list of at most LIMIT (NIL: all) models of THEORY, a theory, its name or a reasoner,
-and true if there are no more; with COMPLETE false it is not tried to find out after LIMIT models.  HORIZON is as for MAKE-REASONER; WHERE is a formula with timepoints
-by number that the models satisfy.  MINIMIZE is a list of predicates, happens or the theory's own:
-only one model is returned for each set of their true atoms of which no part would do
-(circumscription, where predicate completion is weaker).  Signals THEORY-ERROR, NO-HORIZON."
+and true if there are no more; with COMPLETE false it is not tried to find out after LIMIT models.
+HORIZON is as for MAKE-REASONER; WHERE is a formula with timepoints by number that the models
+satisfy.  MINIMIZE is a list of predicates, happens or the theory's own: only one model is returned
+for each set of their true atoms of which no part would do (circumscription, where predicate
+completion is weaker).  Signals THEORY-ERROR, NO-HORIZON."
   (check-type limit (or null unsigned-byte))
   (let ((models '()))
     (with-reasoner-of (reasoner theory :horizon horizon)

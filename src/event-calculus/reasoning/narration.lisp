@@ -39,8 +39,8 @@ the theory is consistent, so that what one event initiates no other can terminat
              (and (eq kind :completion) (null (premise-texts narration derivation)))))))
 
 (defun premise-literals (narration derivation)
-  "Return the literals that DERIVATION rests on and that need to be said, those of auxiliary atoms in
-their place."
+  "Return the literals that DERIVATION rests on and that need to be said, those of auxiliary atoms
+in their place."
   (let ((literals '()) (seen '()))
     (labels ((collect (literal)
                (unless (member literal seen)

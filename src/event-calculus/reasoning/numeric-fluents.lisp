@@ -1,8 +1,8 @@
 ;;;; Numeric fluents in clauses: inertia, assignment and release of numbers.
 ;;;;
 ;;;; The value at t + 1 is the one that an event assigns at t, or that at t unless the fluent is
-;;;; released: DEC5 to DEC12 with a number in the place of a truth value.  Each equation is an atom of
-;;;; its own, which the solver ties to one real a fluent and timepoint.
+;;;; released: DEC5 to DEC12 with a number in the place of a truth value.  Each equation is an atom
+;;;; of its own, which the solver ties to one real a fluent and timepoint.
 
 (in-package #:discrepancy-finder.event-calculus)
 

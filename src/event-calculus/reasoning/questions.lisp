@@ -6,8 +6,8 @@
                             &key (literal-term (lambda (literal)
                                                  (z3:clause-set-term
                                                   (reasoner-clause-set reasoner) literal))))
-  "Return the proposition of the ground FORMULA, whose times are timepoints; LITERAL-TERM returns the
-term of a propositional variable."
+  "Return the proposition of the ground FORMULA, whose times are timepoints; LITERAL-TERM returns
+the term of a propositional variable."
   (let ((encoder (reasoner-encoder reasoner)))
     (labels ((convert (formula)
                (if (atom formula)

@@ -61,8 +61,8 @@ CLOSE-REASONER."
     range))
 
 (defparameter *solver-options* '(("simplify.delay" . 3000))
-  "Options of Z3's engine for finite domains: to simplify the clauses takes longer than most questions
-do, so it is put off until after so many conflicts.")
+  "Options of Z3's engine for finite domains: to simplify the clauses takes longer than most
+questions do, so it is put off until after so many conflicts.")
 
 (defconstant +assumption+ :|(:assumption)|
   "The name of the axiom that stands for an assumption, which no theory can give.")
@@ -133,10 +133,10 @@ do, so it is put off until after so many conflicts.")
   "Return a REASONER for THEORY, a theory or its name.  HORIZON is the last timepoint, or a list of
 the first and the last one; by default it is the theory's own.  OPEN-EVENTS names events that may
 happen although the theory completes happens.  SEED and TIMEOUT (s) are those of Z3, LOGIC picks its
-engine: by default QF_FD, or Z3's default engine where there are numeric fluents.  GROUND saves making the theory ground again; TRACKED is for WHY; NAMED gives Z3 the names
-of the atoms, which its texts show then.  ASSUMPTIONS are formulas with timepoints by number that are
-true, too.  Signals THEORY-NOT-FOUND,
-NO-HORIZON, THEORY-ERROR."
+engine: by default QF_FD, or Z3's default engine where there are numeric fluents.  GROUND saves
+making the theory ground again; TRACKED is for WHY; NAMED gives Z3 the names of the atoms, which its
+texts show then.  ASSUMPTIONS are formulas with timepoints by number that are true, too.  Signals
+THEORY-NOT-FOUND, NO-HORIZON, THEORY-ERROR."
   (check-type seed (or null unsigned-byte))
   (check-type timeout (or null (real (0))))
   (let* ((theory (if (theory-p theory) theory (find-theory theory)))
@@ -153,7 +153,8 @@ NO-HORIZON, THEORY-ERROR."
                                            collect (parse-formula form theory
                                                                   :kind :query
                                                                   :blame "the question"))
-                        :open-events open-events :tracked tracked :named named :seed seed :timeout timeout
+                        :open-events open-events :tracked tracked :named named :seed seed
+                        :timeout timeout
                         :logic (cond (logic-p logic)
                                      ((theory-numeric-fluents theory) nil)
                                      (t "QF_FD"))))

@@ -55,8 +55,8 @@ none."
                 derivations)))))
 
 (defun explanation-sentences-of (reasoner core claim supposition conclusion)
-  "Return the sentences for CORE: a derivation of the formula CLAIM, or from SUPPOSITION, a sentence,
-to a contradiction, after which comes CONCLUSION."
+  "Return the sentences for CORE: a derivation of the formula CLAIM, or from SUPPOSITION, a
+sentence, to a contradiction, after which comes CONCLUSION."
   (let ((direct (direct-derivations reasoner core claim)))
     (if direct
         (narrate reasoner direct)

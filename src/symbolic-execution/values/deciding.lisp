@@ -55,61 +55,61 @@ there is none."
       (values nil nil)))
 
 (defun settled-number (number description)
-  (let ((term (symbolic-number-term number)))
+  (let ((term (symbolic-number-term number)) (path *path*))
     (multiple-value-bind (low high) (type-bounds (symbolic-number-type number))
-      (if (and (integer-term-p term) low high (< (- high low) *number-limit*))
-          (decide-number term (loop for value from low to high collect value) description)
-          (let ((values (outside-the-plan (*path*) (all-values *path* term))))
-            (cond ((listp values) (decide-number term values description))
-                  ((integer-term-p term) (settled-integer term description))
-                  (t (settled-real term description))))))))
+      (decide path description
+              (lambda ()
+                (if (and (integer-term-p term) low high (< (- high low) *number-limit*))
+                    (value-options term (loop for value from low to high collect value))
+                    (let ((values (all-values path term)))
+                      (cond ((listp values) (value-options term values))
+                            ((integer-term-p term) (integer-options path term description))
+                            (t (real-options path term description))))))))))
 
-(defun decide-number (term values description)
-  "Decide which of VALUES, the only possible ones, the numeric TERM is."
-  (decide *path* description
-          (loop for value in values collect (cons value (z3:equals term value)))
-          :exhaustive t))
+(defun value-options (term values)
+  "Return the options for VALUES, the only possible ones of the numeric TERM, and true."
+  (values (loop for value in values collect (cons value (z3:equals term value)))
+          t))
 
 (defun all-values (path term)
   "Return the possible values of the numeric TERM on PATH in ascending order, or :MANY if they are
 more than *NUMBER-LIMIT*."
-  (let ((solver (path-solver path)) (values '()))
+  (let ((solver (path-solver path)) (oracle (path-oracle path)) (values '()))
     (z3:push-scope solver)
     (unwind-protect
          (loop repeat *number-limit*
-               do (unless (eq (z3:check solver) :sat)
-                    (return (sort values #'<)))
+               do (case (ask oracle)
+                    (:unsat (return (sort values #'<)))
+                    (:unknown (return :many)))
                   (let ((value (z3:model-value solver term)))
                     (unless (rationalp value)
                       (return :many))
                     (push value values)
                     (z3:solver-assert solver (z3:negation (z3:equals term value))))
-               finally (return (if (eq (z3:check solver) :sat) :many (sort values #'<))))
+               finally (return (if (eq (ask oracle) :unsat) (sort values #'<) :many)))
       (z3:pop-scope solver))))
 
 (defun integer-term-p (term)
   (eq (z3:sort-kind (z3:term-sort term)) :integer))
 
-(defun settled-integer (term description)
-  "Decide for a value of the integer TERM, the values nearest to 0 first."
-  (let ((path *path*) (options '()) (more nil))
-    (outside-the-plan (path)
-      (let ((solver (path-solver path)))
-        (z3:push-scope solver)
-        (unwind-protect
-             (loop repeat (1+ *number-limit*)
-                   for value = (nearest-integer path term)
-                   while value
-                   do (push (cons value (z3:equals term value)) options)
-                      (z3:solver-assert solver (z3:negation (z3:equals term value))))
-          (z3:pop-scope solver)))
-      (when (> (length options) *number-limit*)
-        (pop options)
-        (setf more t)))
+(defun integer-options (path term description)
+  "Return the options for the values of the integer TERM, and true if these are all."
+  (let ((options '()) (more nil) (solver (path-solver path)))
+    (z3:push-scope solver)
+    (unwind-protect
+         (loop repeat (1+ *number-limit*)
+               for value = (nearest-integer path term)
+               while value
+               do (push (cons value (z3:equals term value)) options)
+                  (z3:solver-assert solver (z3:negation (z3:equals term value))))
+      (z3:pop-scope solver))
+    (when (> (length options) *number-limit*)
+      (pop options)
+      (setf more t))
     (when more
       (note-limit path (format nil "other values of a number than the first ~d, at ~a"
                                *number-limit* description)))
-    (decide path description (nreverse options) :exhaustive (not more))))
+    (values (nreverse options) (not more))))
 
 (defun nearest-integer (path term)
   "Return the possible value of the integer TERM on PATH that is nearest to 0, the positive one of
@@ -117,7 +117,7 @@ two, or NIL."
   (flet ((within-p (bound)
            (possible-p path (z3:conjunction (list (z3:less-or-equal (- bound) term)
                                                   (z3:less-or-equal term bound))))))
-    (when (eq (z3:check (path-solver path)) :sat)
+    (unless (eq (ask (path-oracle path)) :unsat)
       (let ((low -1) (high 0))
         ;; No value is within LOW, one is within HIGH.
         (loop until (within-p high)
@@ -130,13 +130,12 @@ two, or NIL."
                        (setf low middle))))
         (if (possible-p path (z3:equals term high)) high (- high))))))
 
-(defun settled-real (term description)
-  "Return a value of the real TERM, which has many: the one with the least denominator, and of
-these the one nearest to 0.  The exploration is not complete."
-  (let* ((path *path*)
-         (value (outside-the-plan (path) (simplest-rational path term))))
+(defun real-options (path term description)
+  "Return a list of one option for the real TERM, which has many values: the one with the least
+denominator, and of these the one nearest to 0."
+  (let ((value (simplest-rational path term)))
     (note-limit path (format nil "other values of a number than ~a, at ~a" value description))
-    (decide path description (list (cons value (z3:equals term value))))))
+    (and value (list (cons value (z3:equals term value))))))
 
 (defparameter *largest-denominator* 64
   "Values with greater denominators are not looked for.")
@@ -145,7 +144,7 @@ these the one nearest to 0.  The exploration is not complete."
   "Return the possible value of the real TERM on PATH with the least denominator, and of these the
 one nearest to 0; if none has a small one what Z3 finds first.  NIL if there is none."
   (let ((solver (path-solver path)))
-    (when (eq (z3:check solver) :sat)
+    (unless (eq (ask (path-oracle path)) :unsat)
       (loop for denominator from 1 to *largest-denominator*
             for product = (z3:product (list denominator term))
             when (possible-p path (z3:integral product))
