@@ -234,8 +234,10 @@ The environment variable CXX names another compiler than g++."))
                              (:file "conses") (:file "fluent-operators")))
                (:module "evaluator"
                 :serial t
-                :components ((:file "scope") (:file "evaluator") (:file "functions")
-                             (:file "special-operators") (:file "conditions-in-plans")))
+                :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
+                             (:file "calls") (:file "inline") (:file "bindings")
+                             (:file "functions") (:file "special-operators")
+                             (:file "conditions-in-plans")))
                (:module "exploration"
                 :serial t
                 :components ((:file "perform") (:file "trace") (:file "exploration")))))

@@ -24,6 +24,8 @@
    #:trace-plan #:trace-arguments #:trace-text #:step-text #:states-along #:outcome-transition
    #:make-trace-step #:make-execution-trace
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
+   ;; the evaluator
+   #:evaluate
    ;; symbolic values
    #:symbolic-value #:symbolic-value-p #:symbolic-boolean #:symbolic-boolean-proposition
    #:symbolic-number #:symbolic-number-term #:symbolic-number-type
