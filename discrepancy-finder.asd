@@ -237,7 +237,9 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
                              (:file "calls") (:file "inline") (:file "bindings")
                              (:file "functions") (:file "special-operators")
-                             (:file "conditions-in-plans")))
+                             (:file "choices") (:file "conditions-in-plans")
+                             (:file "definitions")
+                             (:file "generic-functions")))
                (:module "exploration"
                 :serial t
                 :components ((:file "perform") (:file "trace") (:file "exploration")))))

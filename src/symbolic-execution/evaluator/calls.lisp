@@ -36,10 +36,14 @@ CODE, the function to be called for it, was found."
         (look-up-callee callee))))
 
 (defun look-up-callee (callee)
-  (let* ((function (global-function (callee-name callee)))
-         (interpreted (interpreted-function-p function)))
-    (setf (callee-interpreted-p callee) interpreted
-          (callee-code callee) (if interpreted (interpreted-function-code function) function)
+  (let* ((name (callee-name callee))
+         (function (global-function name)))
+    (setf (callee-code callee)
+          (cond ((interpreted-function-p function) (interpreted-function-code function))
+                ((typep function 'generic-function) (generic-function-code function name))
+                (t function))
+          ;; Such code knows itself what to do with symbolic values.
+          (callee-interpreted-p callee) (not (eq (callee-code callee) function))
           (callee-seen callee) (sb-kernel:fdefn-fun (callee-definition callee)))
     (callee-code callee)))
 
