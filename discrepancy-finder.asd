@@ -312,7 +312,12 @@ The environment variable CXX names another compiler than g++."))
                (:file "malformed-plans")
                (:module "symbolic-execution"
                 :serial t
-                :components ((:file "evaluator") (:file "exploration") (:file "parallel")
+                :components ((:file "evaluator") (:file "programs")
+                             (:file "programs-control") (:file "programs-iteration")
+                             (:file "programs-functions") (:file "programs-conditions")
+                             (:file "programs-places") (:file "programs-macros")
+                             (:file "programs-data")
+                             (:file "exploration") (:file "parallel")
                              (:file "table") (:file "open-theories")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")

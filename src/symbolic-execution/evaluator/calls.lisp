@@ -37,7 +37,7 @@ CODE, the function to be called for it, was found."
 
 (defun look-up-callee (callee)
   (let* ((name (callee-name callee))
-         (function (global-function name)))
+         (function (if (fboundp name) (global-function name) (undefined-caller name))))
     (setf (callee-code callee)
           (cond ((interpreted-function-p function) (interpreted-function-code function))
                 ((typep function 'generic-function) (generic-function-code function name))
@@ -51,6 +51,12 @@ CODE, the function to be called for it, was found."
   "Return the function that a call of NAME means: a plan is interpreted, all else is as defined."
   (let ((plan (plan:plan-source name)))
     (if plan (interpreted-plan plan) (defined-function name))))
+
+(defun undefined-caller (name)
+  "Return a function that calls the undefined function NAME, which SBCL has restarts for."
+  (if (symbolp name)
+      (lambda (&rest arguments) (apply name arguments))
+      (defined-function name)))
 
 (defun defined-function (name)
   "Return the global function NAME.  Signals UNDEFINED-FUNCTION."
