@@ -136,56 +136,60 @@ values are left as they are."
        (car (find-if (lambda (choice) (z3:model-value solver (cdr choice)))
                      (symbolic:symbolic-element-choices value)))))))
 
-(defun interpreted-lambda (names form)
-  (funcall (symbolic::analyze `(lambda ,names (declare (ignorable ,@names)) ,form)
-                              (symbolic::make-scope))
-           (vector nil)))
-
 (defvar *decision-count* 0
   "The number of decisions on the paths of the last expression.")
 
-(defun explore-expression (form)
-  "Explore FORM over the arguments that it mentions.  Return a list with an element for each path,
-in order: an alist from the assignments that it covers, lists of values, to the outcome, as a tree;
-the list of what was left out; and the arguments."
-  (let* ((arguments (expression-arguments form))
-         (function (symbolic::interpreted-function-code
-                    (interpreted-lambda (mapcar #'first arguments) form)))
+(defun symbolic-arguments (arguments oracle)
+  "Return a symbolic value for each of ARGUMENTS, of whose conditions ORACLE is told."
+  (loop for (name type) in arguments
+        collect (multiple-value-bind (value propositions)
+                    (symbolic:make-symbolic-argument name type nil
+                                                     (symbolic::oracle-context oracle))
+                  (dolist (proposition propositions value)
+                    (symbolic::oracle-assume oracle proposition)))))
+
+(defun covered-assignments (solver values assignments outcome)
+  "Return an alist from those of ASSIGNMENTS, concrete VALUES, that SOLVER allows to OUTCOME with
+these."
+  (loop for assignment in assignments
+        do (z3:push-scope solver)
+           (loop for value in values for concrete in assignment
+                 do (z3:solver-assert solver (same-value-proposition value concrete)))
+        when (eq (z3:check solver) :sat)
+          collect (cons assignment (replaced-symbolic outcome (lookup-in-model solver)))
+        do (z3:pop-scope solver)))
+
+(defun explore-expression (form &key (arguments (expression-arguments form)))
+  "Explore FORM over ARGUMENTS, those of *EXPRESSION-ARGUMENTS* that it mentions.  Return a list with
+an element for each path, in order: an alist from the assignments that it covers, lists of values,
+to the outcome, as a tree; the list of what was left out; and the arguments."
+  (let* ((function (symbolic::interpreted-function-code
+                    (symbolic:evaluate
+                     `(lambda ,(mapcar #'first arguments)
+                        (declare (ignorable ,@(mapcar #'first arguments)))
+                        ,form))))
          (assignments (assignments arguments))
+         (oracle (symbolic::open-oracle
+                  (symbolic::make-oracle :make-solver (lambda (context)
+                                                        (z3:make-solver context :logic nil)))))
+         (values (symbolic-arguments arguments oracle))
          (domain (make-lamp-domain))
          (*state* (fresh-state)) (state-before (plain-tree *state*))
          (pending (list '())) (results '()) (limits '()))
     (setf *decision-count* 0)
-    (z3:with-context (context)
-      (let ((solver (z3:make-solver context :logic nil)))
-        (loop while pending
-              do (z3:push-scope solver)
-                 (let ((values '())
-                       (path (symbolic::make-path :plan 'expression :domain domain :solver solver
-                                                  :prefix (pop pending) :jumps-left 10000)))
-                   (loop for (name type) in arguments
-                         do (multiple-value-bind (value propositions)
-                                (symbolic:make-symbolic-argument name type nil context)
-                              (push value values)
-                              (dolist (proposition propositions)
-                                (z3:solver-assert solver proposition))))
-                   (setf (symbolic::path-symbolic-p path) (and arguments t)
-                         values (nreverse values))
-                   (let ((outcome (run-expression function path values)) (covered '()))
-                     (incf *decision-count* (length (symbolic::path-decisions path)))
-                     (setf pending (append (symbolic::path-alternatives path) pending)
-                           limits (append (symbolic::path-limits path) limits))
-                     (dolist (assignment assignments)
-                       (z3:push-scope solver)
-                       (loop for value in values for concrete in assignment
-                             do (z3:solver-assert solver (same-value-proposition value concrete)))
-                       (when (eq (z3:check solver) :sat)
-                         (push (cons assignment
-                                     (replaced-symbolic outcome (lookup-in-model solver)))
-                               covered))
-                       (z3:pop-scope solver))
-                     (push (nreverse covered) results)))
-                 (z3:pop-scope solver))))
+    (loop while pending
+          do (let ((prefix (reverse (pop pending))))
+               (symbolic::retract-to-depth oracle (symbolic::shared-depth oracle prefix))
+               (let* ((path (symbolic::make-path :plan 'expression :domain domain :oracle oracle
+                                                 :prefix prefix :repeated (length prefix)
+                                                 :symbolic-p (and arguments t) :jumps-left 10000))
+                      (outcome (run-expression function path values)))
+                 (incf *decision-count* (length (symbolic::path-decisions path)))
+                 (setf pending (append (symbolic::path-alternatives path) pending)
+                       limits (append (symbolic::path-limits path) limits))
+                 (push (covered-assignments (symbolic::path-solver path) values assignments outcome)
+                       results))))
+    (symbolic::close-oracle oracle)
     (unless (equal state-before (plain-tree *state*))
       (push "the state before the run has changed" limits))
     (values (nreverse results) limits arguments)))

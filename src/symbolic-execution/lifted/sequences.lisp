@@ -284,6 +284,5 @@ else."
 (define-lifted (complement) (function)
   (let ((code (code-of function)))
     (make-interpreted-function
-     'complement
      (lambda (&rest arguments)
        (funcall (the function (lifted-function 'not)) (apply (the function code) arguments))))))
