@@ -22,23 +22,23 @@
 
 (defun truth-in (domain state formula)
   "Return whether FORMULA, in which fluents stand for themselves, holds in STATE."
-  (let ((proposition (ec:holds (ec:ground-formula
-                                (action-theory-ground domain)
-                                (ec:parse-formula formula (action-theory-theory domain)
-                                                  :blame "a truth-of"))
-                               (list state))))
-    (symbolic-boolean proposition)))
+  (let ((ground-formula (ground-state-formula domain formula (constantly "a truth-of"))))
+    (when *path* (note-looks *path* (ec:formula-footprint ground-formula)))
+    (symbolic-boolean (ec:holds ground-formula (list state)))))
 
 (defun value-in (domain state fluent variable)
   "Return the element in the place of VARIABLE for which FLUENT holds in STATE, the first one if
 there are several, NIL if there is none."
   (let ((rest t)
+        (ground (action-theory-ground domain))
         (choices '()))
     (flet ((add (value proposition)
              (when proposition (push (cons value proposition) choices))))
       (dolist (element (ec:sort-elements (action-theory-theory domain)
                                          (variable-sort-name variable)))
-        (let ((holds (ec:fluent-value state (substitute element variable fluent))))
+        (let* ((number (ec:find-fluent ground (substitute element variable fluent)))
+               (holds (svref (ec:state-values state) number)))
+          (when *path* (note-looks *path* (ash 1 number)))
           (add element (z3:conjunction (list rest holds)))
           (setf rest (z3:conjunction (list rest (z3:negation holds))))))
       (add nil rest))

@@ -20,6 +20,8 @@
           :documentation "The order of the paths, a keyword.")
    (seed :initarg :seed :reader exploration-seed :documentation "The seed of the order :RANDOM.")
    (interleavings :initarg :interleavings :reader exploration-interleavings)
+   (uses :initform (make-hash-table :test 'eq) :reader exploration-uses
+         :documentation "The LISP-USE of each branch.")
    (file-output :initarg :file-output :reader exploration-file-output)
    (keep-errors :initarg :keep-errors :reader exploration-keep-errors)
    (max-paths :initarg :max-paths :reader exploration-max-paths)
@@ -182,8 +184,8 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
               that were never taken come first
   MAX-PATHS, MAX-STEPS (performs on a path), MAX-JUMPS (iterations of loops and retries on a path)
               and MAX-SECONDS (in all, or NIL) bound the search; what they cut off is a gap
-  SCHEDULES   :ONE, tasks that run in parallel take turns in one fixed order, or :ALL, every order
-              is a path of its own
+  INTERLEAVINGS  with NIL tasks that run in parallel take turns in one fixed order, with T all
+              orders are explored in which the outcome can differ, with :ALL all orders
   FILE-OUTPUT true if the plan may write files: no run's writing is undone
   KEEP-ERRORS true if an error that the plan does not handle only ends its path, instead of being
               signaled as PLAN-BROKE

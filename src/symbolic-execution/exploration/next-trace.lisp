@@ -43,6 +43,18 @@
 
 ;;; Runs
 
+(defun visible-formula (exploration)
+  "Return the ground formula that says which steps of EXPLORATION traces depend on, or :ANY."
+  (if (and (not (eq (exploration-constraint exploration) :any-action))
+           (eq (exploration-mode exploration) :last))
+      (exploration-formula exploration)
+      :any))
+
+(defun exploration-span (exploration)
+  "Return how many steps an instance of the constraint of EXPLORATION takes."
+  (let ((constraint (exploration-constraint exploration)))
+    (if (eq constraint :any-action) 1 (ec:state-constraint-span constraint))))
+
 (defun current-initial-state (exploration)
   "Return the symbolic initial state in the present context of EXPLORATION."
   (let* ((oracle (exploration-oracle exploration))
@@ -81,6 +93,11 @@
                :symbolic-p (and (exploration-types exploration) t)
                :max-steps (exploration-max-steps exploration)
                :interleavings (exploration-interleavings exploration)
+               :schedule (new-schedule (exploration-domain exploration)
+                                       (exploration-interleavings exploration)
+                                       (visible-formula exploration)
+                                       (exploration-span exploration)
+                                       (exploration-uses exploration))
                :file-output (exploration-file-output exploration)
                :keep-errors (exploration-keep-errors exploration)
                :deadline (deadline exploration)
@@ -95,6 +112,7 @@ NIL if there is no path."
     (when (exploration-consistent-p exploration)
       (let ((output (run-plan-on path (interpreted-plan (exploration-plan exploration))
                                  (mapcar #'argument-value arguments))))
+        (note-races path)
         (cond ((eq (path-ending path) :out-of-time)
                (add-prefix frontier prefix))
               (t (note-run frontier (path-decisions path))
@@ -102,13 +120,9 @@ NIL if there is no path."
         (incf (exploration-steps exploration) (length (path-steps path)))
         (note-limits exploration path)
         (note-ending exploration path)
-        (let ((any-action (eq (exploration-constraint exploration) :any-action)))
-          (make-finished-run :path path :arguments arguments :output output
-                       :formula (exploration-formula exploration)
-                       :span (if any-action
-                                 1
-                                 (ec:state-constraint-span
-                                  (exploration-constraint exploration)))))))))
+        (make-finished-run :path path :arguments arguments :output output
+                           :formula (exploration-formula exploration)
+                           :span (exploration-span exploration))))))
 
 (defun call-timed (exploration function)
   "Call FUNCTION; add the time to that of EXPLORATION, and note which questions Z3 left open."

@@ -10,12 +10,12 @@
   "A symbolic run.  Lists are in reverse order but for PREFIX, the decisions still to be repeated.
 ALTERNATIVES are such lists of decisions, the deepest first, for runs to come.
 MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries, DEADLINE, in seconds
-of the monotonic clock, the time.
-SYMBOLIC-P is true once the run has symbolic values; LIMITS are sentences on what it leaves out;
-INTERLEAVINGS says which orders of parallel tasks are explored; HANDLERS are the condition handlers outside of the plan.  STEP-DEPTHS has for each
-step the number of decisions up to it, REPEATED is the number of those that repeat another run.
-ENDING says why the run is over, :ERROR if by the condition FATAL; with KEEP-ERRORS an error of the
-plan is an ending like others."
+of the monotonic clock, the time.  SYMBOLIC-P is true once the run has symbolic values; LIMITS are
+sentences on what it leaves out.  INTERLEAVINGS says which orders of parallel tasks are explored,
+SCHEDULE notes those of this run; HANDLERS are the condition handlers outside of the plan.
+STEP-DEPTHS has for each step the number of decisions up to it, REPEATED is the number of those that
+repeat another run.  ENDING says why the run is over, :ERROR if by the condition FATAL; with
+KEEP-ERRORS an error of the plan is an ending like others."
   (plan nil :read-only t)
   (domain nil :type action-theory :read-only t)
   (oracle nil :type oracle :read-only t)
@@ -35,6 +35,7 @@ plan is an ending like others."
   (symbolic-p nil :type boolean)
   (limits '() :type list)
   (interleavings nil :type (member nil t :all) :read-only t)
+  (schedule nil :read-only t)
   (file-output nil :type boolean :read-only t)
   (keep-errors nil :type boolean :read-only t)
   (handlers nil)
