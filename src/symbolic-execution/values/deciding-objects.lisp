@@ -27,7 +27,8 @@ value after the run."
   (:documentation "Return true if instances of CLASS may hold symbolic values.")
   (:method ((class class))
     (let ((package (and (class-name class) (symbol-package (class-name class)))))
-      (not (and package (system-package-p package))))))
+      (or (subtypep class 'condition)
+          (not (and package (system-package-p package)))))))
 
 (defun system-package-p (package)
   "Return true if PACKAGE belongs to Lisp itself or to this system; instances of classes named in
