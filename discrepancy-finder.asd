@@ -233,13 +233,17 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "table") (:file "equality") (:file "arithmetic")
                              (:file "comparison") (:file "division") (:file "types")
-                             (:file "conses") (:file "fluent-operators")))
+                             (:file "conses") (:file "sequences") (:file "arrays")
+                             (:file "hash-tables") (:file "instances") (:file "symbols")
+                             (:file "choices") (:file "output") (:file "fluent-operators")))
                (:module "evaluator"
                 :serial t
                 :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
                              (:file "calls") (:file "inline") (:file "bindings")
                              (:file "functions") (:file "special-operators")
-                             (:file "conditions-in-plans")))
+                             (:file "choices") (:file "conditions-in-plans")
+                             (:file "definitions")
+                             (:file "generic-functions")))
                (:module "exploration"
                 :serial t
                 :components ((:file "perform") (:file "lisp-footprints")
@@ -318,8 +322,15 @@ The environment variable CXX names another compiler than g++."))
                (:file "malformed-plans")
                (:module "symbolic-execution"
                 :serial t
-                :components ((:file "evaluator") (:file "exploration") (:file "parallel")
+                :components ((:file "evaluator") (:file "programs")
+                             (:file "programs-control") (:file "programs-iteration")
+                             (:file "programs-functions") (:file "programs-conditions")
+                             (:file "programs-places") (:file "programs-macros")
+                             (:file "programs-data")
+                             (:file "exploration") (:file "parallel")
                              (:file "table") (:file "open-theories")
+                             (:file "lifted-programs") (:file "values") (:file "symbolic-values")
+                             (:file "lifted")
                              (:file "define-action") (:file "interleavings")
                              (:file "random-plans") (:file "searching")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
