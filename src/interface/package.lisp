@@ -31,6 +31,9 @@
   (:import-from #:discrepancy-finder.symbolic-execution
                 #:define-action #:region-of #:value-of #:truth-of #:exploration #:exploration-traces
                 #:exploration-complete-p #:exploration-paths #:exploration-gaps
+                #:exploration-statistics #:stop-exploring
+                #:verification #:verification-verdict #:verification-counterexample
+                #:verification-problem #:verification-bounds
                 #:trace-initial-state #:trace-steps #:trace-final-state #:execution-trace
                 #:plan-broke
                 #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
@@ -69,7 +72,9 @@
    #:explanation-axioms #:check-theory #:finding-severity #:finding-text
    ;; symbolic execution
    #:explore-plan #:exploration #:exploration-traces #:exploration-complete-p
-   #:exploration-paths #:exploration-gaps
+   #:exploration-paths #:exploration-gaps #:exploration-statistics #:stop-exploring
+   #:verify-plan #:verification #:verification-verdict #:verification-counterexample
+   #:verification-problem #:verification-bounds
    #:execution-trace #:trace-initial-state #:trace-steps #:trace-final-state
    ;; projection
    #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash

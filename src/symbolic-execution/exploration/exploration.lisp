@@ -172,7 +172,7 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
                          &key constraint arguments (traces :last) (order :depth-first) (seed 0)
                            (max-paths 10000) (max-steps 1000) (max-jumps 1000000) max-seconds
                            interleavings file-output progress solver-timeout solver-options
-                           keep-errors)
+                           (on-unknown :keep) keep-errors)
   "Return an EXPLORATION of the plan named PLAN (a symbol) in DOMAIN (an ACTION-THEORY or its name).
   CONSTRAINT  a state constraint, its name, or a formula over ?time and (+ ?time n); with NIL the
               theory's only one; :ANY-ACTION: each performed action ends a trace
@@ -190,8 +190,9 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
   KEEP-ERRORS true if an error that the plan does not handle only ends its path, instead of being
               signaled as PLAN-BROKE
   PROGRESS    a function that is called with the exploration, at most once a second
-  SOLVER-TIMEOUT (s, or NIL) and SOLVER-OPTIONS are for Z3, see Z3:MAKE-SOLVER; what it cannot
-              answer is taken for possible, and a gap
+  SOLVER-TIMEOUT (s, or NIL) and SOLVER-OPTIONS are for Z3, see Z3:MAKE-SOLVER
+  ON-UNKNOWN  :KEEP, what Z3 cannot answer is taken for possible, and a gap; or :SIGNAL
+              SOLVER-UNKNOWN with its restarts
 Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, THEORY-ERROR,
 UNSUPPORTED-FORM."
   (check-option :traces traces "one of :last, :every-instance, :first-instance, :every-state"
@@ -200,6 +201,7 @@ UNSUPPORTED-FORM."
                 (member order '(:depth-first :breadth-first :random :coverage)))
   (check-option :interleavings interleavings "one of nil, t, :all"
                 (member interleavings '(nil t :all)))
+  (check-option :on-unknown on-unknown "one of :keep, :signal" (member on-unknown '(:keep :signal)))
   (check-bounds :max-paths max-paths :max-steps max-steps :max-jumps max-jumps :seed seed)
   (let* ((plan (plan:find-plan plan))
          (domain (if (typep domain 'action-theory) domain (find-action-theory domain)))
@@ -223,4 +225,5 @@ UNSUPPORTED-FORM."
                             :numeric (some (lambda (entry)
                                              (and (consp entry) (numeric-argument-type-p (second entry))))
                                            types)
-                            :timeout solver-timeout :options solver-options))))
+                            :timeout solver-timeout :options solver-options
+                            :signals-unknown (eq on-unknown :signal)))))
