@@ -5,6 +5,7 @@
                     (#:ec #:discrepancy-finder.event-calculus)
                     (#:plan #:discrepancy-finder.plan-language)
                     (#:source #:discrepancy-finder.source)
+                    (#:desig #:discrepancy-finder.designators)
                     (#:json #:discrepancy-finder.json)
                     (#:foreign #:discrepancy-finder.foreign))
   (:export

@@ -30,11 +30,7 @@ the PLAN that performs it and the source POSITION where it does."
 
 (defun outcome-condition-in (domain condition designator)
   "Return CONDITION, T, NIL or a formula, as a ground formula of the theory of DOMAIN."
-  (if (typep condition 'boolean)
-      condition
-      (ec:ground-formula (action-theory-ground domain)
-                         (ec:parse-formula condition (action-theory-theory domain)
-                                           :blame (format nil "action ~a" designator)))))
+  (ground-state-formula domain condition (lambda () (format nil "action ~a" designator))))
 
 (defun describe-outcomes (domain designator)
   (let ((binding (find-action-binding domain designator))

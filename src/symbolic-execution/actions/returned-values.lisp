@@ -22,12 +22,9 @@
 
 (defun truth-in (domain state formula)
   "Return whether FORMULA, in which fluents stand for themselves, holds in STATE."
-  (let ((ground-formula (ec:ground-formula
-                         (action-theory-ground domain)
-                         (ec:parse-formula formula (action-theory-theory domain)
-                                           :blame "a truth-of"))))
-    (when *path* (note-looks *path* (ec:formula-footprint ground-formula)))
-    (symbolic-boolean (ec:holds ground-formula (list state)))))
+  (let ((formula (ground-state-formula domain formula (constantly "a truth-of"))))
+    (when *path* (note-looks *path* (ec:formula-footprint formula)))
+    (symbolic-boolean (ec:holds formula (list state)))))
 
 (defun value-in (domain state fluent variable)
   "Return the element in the place of VARIABLE for which FLUENT holds in STATE, the first one if

@@ -37,6 +37,27 @@ must be true for it."
     (multiple-value-bind (next conditions) (ec:progress state event)
       (values next (if (eq condition t) conditions (acons nil condition conditions))))))
 
+(defun same-description-p (one other)
+  "Return true if ONE and OTHER, designators or parts of their descriptions, have the same text for
+sure."
+  (cond ((eql one other) t)
+        ((consp one) (and (consp other)
+                          (same-description-p (car one) (car other))
+                          (same-description-p (cdr one) (cdr other))))
+        ((typep one 'plan:designator)
+         (and (eq (class-of one) (class-of other))
+              (eq (desig:quantifier one) (desig:quantifier other))
+              (same-description-p (desig:properties one) (desig:properties other))))
+        ((stringp one) (equal one other))))
+
+(defun designator-text (path designator)
+  "Return the text of DESIGNATOR, which PATH performs now."
+  (let* ((recorded (next-recorded path))
+         (known (and recorded (decision-designator recorded))))
+    (if (and known (same-description-p designator known))
+        (decision-description recorded)
+        (princ-to-string designator))))
+
 (defun recorded-step (path description)
   "Return the outcome and the state after it if the next decision of PATH's prefix is for the step
 DESCRIPTION and still remembers them, else NIL."
@@ -46,6 +67,17 @@ DESCRIPTION and still remembers them, else NIL."
         (when (and (consp value) (outcome-p (car value))
                    (string= description (decision-description recorded)))
           (values (car value) (cdr value)))))))
+
+(defun decide-new-step (path designator description outcomes)
+  "Decide for one of OUTCOMES of DESIGNATOR and return it and the state after it."
+  (let ((alternatives (path-alternatives path)))
+    (destructuring-bind (outcome . next)
+        (decide path description (step-options path outcomes))
+      ;; For the runs that will repeat the decision.
+      (setf (decision-designator (first (path-decisions path))) designator)
+      (loop for (decision) in (ldiff (path-alternatives path) alternatives)
+            do (setf (decision-designator decision) designator))
+      (values outcome next))))
 
 (defun step-options (path outcomes)
   "Return the options ((outcome . state) . proposition) of a step with OUTCOMES."
@@ -57,8 +89,8 @@ DESCRIPTION and still remembers them, else NIL."
 
 (defun decide-step (path designator position plan)
   "Decide for an outcome of DESIGNATOR, which PLAN performs at POSITION, on PATH and return it and
-the state after it."
-  (let ((description (princ-to-string designator)))
+the state after it, and the text of DESIGNATOR."
+  (let ((description (designator-text path designator)))
     (multiple-value-bind (recorded next) (recorded-step path description)
       (if (and recorded (null (path-schedule path))
                (null (outcome-result recorded))) ; it has no part of the other run
@@ -75,8 +107,8 @@ the state after it."
                       (other-decision path (next-recorded path) description))
                     (repeat-decision path (next-recorded path))
                     (values outcome next description))
-                  (destructuring-bind (outcome . next)
-                      (decide path description (step-options path outcomes))
+                  (multiple-value-bind (outcome next)
+                      (decide-new-step path designator description outcomes)
                     (values outcome next description)))))))))
 
 (defun take-step (path designator position plan)

@@ -10,8 +10,8 @@
 
 (defstruct (decision (:constructor make-decision (choice description)) (:copier nil))
   "CHOICE is the number of the option taken, DESCRIPTION says of what.  The rest is what the first
-run that took it has found out, valid in EPOCH: the PROPOSITION assumed, the VALUE of the option,
-and of the step of a perform the state after it."
+run that took it has found out, valid in EPOCH: the PROPOSITION assumed, the VALUE of the option.
+What a step performs is its DESIGNATOR."
   (choice 0 :type (integer 0) :read-only t)
   (description "" :type string :read-only t)
   (epoch -1 :type fixnum)
