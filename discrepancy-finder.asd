@@ -234,6 +234,7 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "table") (:file "equality") (:file "arithmetic")
                              (:file "comparison") (:file "division") (:file "types")
                              (:file "conses") (:file "fluent-operators")))
+               (:file "coverage/recording")
                (:module "evaluator"
                 :serial t
                 :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
@@ -248,7 +249,10 @@ The environment variable CXX names another compiler than g++."))
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
                              (:file "runs") (:file "exploration") (:file "initial-states")
                              (:file "next-trace")
-                             (:file "verification") (:file "trace-json")))))
+                             (:file "verification") (:file "trace-json")))
+               (:module "coverage"
+                :serial t
+                :components ((:file "coverage") (:file "text") (:file "html")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -321,7 +325,7 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "evaluator") (:file "exploration") (:file "parallel")
                              (:file "table") (:file "open-theories")
                              (:file "define-action") (:file "interleavings")
-                             (:file "random-plans")))
+                             (:file "random-plans") (:file "coverage")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")

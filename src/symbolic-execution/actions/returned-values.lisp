@@ -23,7 +23,7 @@
 (defun truth-in (domain state formula)
   "Return whether FORMULA, in which fluents stand for themselves, holds in STATE."
   (let ((formula (ground-state-formula domain formula (constantly "a truth-of"))))
-    (when *path* (note-looks *path* (ec:formula-footprint formula)))
+    (note-looks (ec:formula-footprint formula))
     (symbolic-boolean (ec:holds formula (list state)))))
 
 (defun value-in (domain state fluent variable)
@@ -38,7 +38,7 @@ there are several, NIL if there is none."
                                          (variable-sort-name variable)))
         (let* ((number (ec:find-fluent ground (substitute element variable fluent)))
                (holds (svref (ec:state-values state) number)))
-          (when *path* (note-looks *path* (ash 1 number)))
+          (note-looks (ash 1 number))
           (add element (z3:conjunction (list rest holds)))
           (setf rest (z3:conjunction (list rest (z3:negation holds))))))
       (add nil rest))

@@ -42,7 +42,7 @@
   "The same where the values of FORM are those of the form around it: the exits stay as they are."
   (cond ((symbolp form) (analyze-symbol form scope))
         ((atom form) (constant-code form))
-        (t (analyze-compound form scope))))
+        (t (with-form-noted (form) (analyze-compound form scope)))))
 
 (defun analyze-compound (form scope)
   (let ((operator (first form)))
