@@ -215,7 +215,7 @@ The environment variable CXX names another compiler than g++."))
                "discrepancy-finder/json" "alexandria" (:require "sb-cltl2"))
   :pathname "src/symbolic-execution/"
   :serial t
-  :components ((:file "package") (:file "conditions")
+  :components ((:file "package") (:file "conditions") (:file "current-path")
                (:module "actions"
                 :serial t
                 :components ((:file "action-theory") (:file "bindings") (:file "clauses")
@@ -233,14 +233,18 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "table") (:file "equality") (:file "arithmetic")
                              (:file "comparison") (:file "division") (:file "types")
-                             (:file "conses") (:file "fluent-operators")))
+                             (:file "conses") (:file "sequences") (:file "arrays")
+                             (:file "hash-tables") (:file "instances") (:file "symbols")
+                             (:file "choices") (:file "output") (:file "fluent-operators")))
                (:file "coverage/recording")
                (:module "evaluator"
                 :serial t
                 :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
                              (:file "calls") (:file "inline") (:file "bindings")
                              (:file "functions") (:file "special-operators")
-                             (:file "conditions-in-plans")))
+                             (:file "choices") (:file "conditions-in-plans")
+                             (:file "definitions")
+                             (:file "generic-functions")))
                (:module "exploration"
                 :serial t
                 :components ((:file "perform") (:file "lisp-footprints")
@@ -249,7 +253,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
                              (:file "runs") (:file "exploration") (:file "initial-states")
                              (:file "next-trace")
-                             (:file "verification") (:file "trace-json")))
+                             (:file "verification") (:file "trace-json") (:file "world")))
                (:module "coverage"
                 :serial t
                 :components ((:file "coverage") (:file "text") (:file "html")))))
@@ -322,10 +326,18 @@ The environment variable CXX names another compiler than g++."))
                (:file "malformed-plans")
                (:module "symbolic-execution"
                 :serial t
-                :components ((:file "evaluator") (:file "exploration") (:file "parallel")
+                :components ((:file "evaluator") (:file "programs")
+                             (:file "programs-control") (:file "programs-iteration")
+                             (:file "programs-functions") (:file "programs-conditions")
+                             (:file "programs-places") (:file "programs-macros")
+                             (:file "programs-data")
+                             (:file "exploration") (:file "parallel")
                              (:file "table") (:file "open-theories")
+                             (:file "lifted-programs") (:file "values") (:file "symbolic-values")
+                             (:file "lifted")
                              (:file "define-action") (:file "interleavings")
-                             (:file "random-plans") (:file "coverage")))
+                             (:file "random-plans") (:file "searching") (:file "coverage")
+                             (:file "cpl-operators")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")

@@ -6,7 +6,7 @@
   ()
   (:documentation "Root of the errors of symbolic execution."))
 
-(define-condition unsupported-form (symbolic-execution-error)
+(define-condition unsupported-form (symbolic-execution-error program-error)
   ((form :initarg :form :reader unsupported-form-form :documentation "The form, or its operator.")
    (reason :initarg :reason :reader unsupported-form-reason
            :documentation "Why it cannot be evaluated, as a string.")

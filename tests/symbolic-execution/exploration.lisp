@@ -115,7 +115,7 @@
   (let ((exploration (explore-text "
 (def-top-level-cram-function lamp-plan (?flag)
   (let ((seen (list ?flag)))
-    (symbol-name (first seen))
+    (sxhash (first seen))
     (perform (a motion (type toggling) (lamp a)))))"
                                    :constraint 'lamp-a-lit :arguments '((?flag boolean)))))
     (is (equal '((t) (nil))

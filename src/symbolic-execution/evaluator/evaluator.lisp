@@ -19,13 +19,16 @@
            (lambda (,form ,scope) (declare (ignorable ,form ,scope)) ,@body))))
 
 (defun unsupported (form reason)
-  "Signal UNSUPPORTED-FORM, past the plan's handlers if a plan runs."
-  (flet ((complain ()
-           (error 'unsupported-form :form form :reason reason
-                                    :position (source:form-position form))))
+  "Signal UNSUPPORTED-FORM."
+  (error 'unsupported-form :form form :reason reason :position (source:form-position form)))
+
+(defun complaining-code (condition)
+  "Return the code that signals CONDITION, an error met when a form was analyzed, past the plan's
+handlers if a plan runs: like compiled code, a form complains when it is reached."
+  (code (frame)
     (if *path*
-        (outside-the-plan (*path*) (complain))
-        (complain))))
+        (outside-the-plan (*path*) (error condition))
+        (error condition))))
 
 (defun constant-code (value)
   (case value
@@ -42,7 +45,13 @@
   "The same where the values of FORM are those of the form around it: the exits stay as they are."
   (cond ((symbolp form) (analyze-symbol form scope))
         ((atom form) (constant-code form))
-        (t (with-form-noted (form) (analyze-compound form scope)))))
+        (t (handler-case (with-form-noted (form) (analyze-compound form scope))
+             (unsupported-form (condition) (complaining-code condition))
+             (error (condition)
+               (complaining-code
+                (make-condition 'unsupported-form
+                                :form form :reason (source:condition-sentence condition)
+                                :position (source:form-position form))))))))
 
 (defun analyze-compound (form scope)
   (let ((operator (first form)))

@@ -37,6 +37,7 @@ the prefix."
          (*random-state* (sb-ext:seed-random-state 0))
          (*gensym-counter* 0)
          (*standard-output* output)
+         (*plan-output* output)
          (*error-output* output)
          (*trace-output* output)
          (*path* path))
