@@ -108,8 +108,11 @@
 NIL if there is no path."
   (let ((path (make-run-path exploration (reverse prefix)))
         (arguments (current-arguments exploration))
-        (frontier (exploration-frontier exploration)))
+        (frontier (exploration-frontier exploration))
+        (*recorder* (exploration-recorder exploration)))
     (when (exploration-consistent-p exploration)
+      (when (and *recorder* (null prefix))
+        (note-initial-state *recorder* (first (path-states path))))
       (let ((output (run-plan-on path (interpreted-plan (exploration-plan exploration))
                                  (mapcar #'argument-value arguments))))
         (note-races path)
