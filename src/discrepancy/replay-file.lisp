@@ -119,8 +119,13 @@ theory must allow them."
                        initial state~]" (zerop refused) refused))
     states))
 
+(defun argument-of (value)
+  (handler-case (symbolic:argument-from-json value)
+    (symbolic:invalid-trace (condition)
+      (replay-problem "~s: ~a" "arguments" (symbolic:invalid-trace-reason condition)))))
+
 (defun read-arguments (object plan)
-  (let ((arguments (map 'list #'boolean-of (value-of object "arguments" 'simple-vector))))
+  (let ((arguments (map 'list #'argument-of (value-of object "arguments" 'simple-vector))))
     (handler-case (check-plan-arguments (plan:plan-name plan) arguments)
       (invalid-argument () (replay-problem "~s do not fit the plan" "arguments")))
     arguments))

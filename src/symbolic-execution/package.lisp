@@ -30,6 +30,7 @@
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
    #:trace= #:trace-decisions #:trace-ending #:trace-output #:trace-decision #:taken-text
    #:taken-choice #:taken-time #:trace-to-json #:trace-from-json
+   #:argument-to-json #:argument-from-json
    ;; verification
    #:verify-plan #:verification #:verification-verdict #:verification-property
    #:verification-counterexample #:verification-problem #:verification-bounds
