@@ -26,12 +26,6 @@ REPLAY-ERROR."))
       (replay-problem "~s is ~s where one of ~{~(~a~)~^, ~} was expected" key
                       (value-of object key 'string) choices)))
 
-(defun boolean-of (value)
-  (case value
-    (:true t)
-    (:false nil)
-    (t (replay-problem "~a was found where true or false was expected" value))))
-
 (defun double-of (object key)
   "Return the number that KEY has in OBJECT as a double float."
   (let ((value (value-of object key 'real)))
