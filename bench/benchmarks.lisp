@@ -128,4 +128,5 @@ by pair."
           (* 1d3 (median-seconds (lambda () (example-trace)) :rounds 21)))
   (print-plan-benchmarks stream)
   (print-bounded-benchmarks stream)
-  (print-progression-benchmarks stream))
+  (print-progression-benchmarks stream)
+  (print-exploration-benchmarks stream))

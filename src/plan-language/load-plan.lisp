@@ -7,9 +7,11 @@
 ;;;; HELPERS, functions that a plan file defines by DEFUN, are evaluated symbolically as well; their
 ;;;; sources are noted by *MACROEXPAND-HOOK*.  It sees each DEFUN that is expanded: at top level, in
 ;;;; PROGN and EVAL-WHEN, and those that macros of the file expand into, which an inspection of the
-;;;; forms would miss.  Its environment tells which ones close over something local: these and
-;;;; methods, goals and process modules stay compiled functions for the evaluator.  So does what has
-;;;; no symbol for a name, such as (setf place).
+;;;; forms would miss.  DEFMETHOD forms are noted in the same way.
+;;;;
+;;;; Functions that close over something local would have a state of their own in the evaluator.  So
+;;;; a top-level form with such definitions in it is evaluated by *CLOSURE-EVALUATOR*, if there is
+;;;; one, and the functions that it defines are interpreted ones everywhere.
 ;;;;
 ;;;; Of a system, ASDF loads what it depends on and says which files it has in which order.  These
 ;;;; files are loaded as sources: compiled files have no positions.
@@ -18,10 +20,34 @@
 
 ;;; Helpers
 
-(defun helper-definition-p (form environment)
-  (and (eq (first form) 'defun)
-       (symbolp (second form))
+(defvar *closure-evaluator* nil
+  "A function that evaluates a form so that the functions it defines are interpreted, or NIL.")
+
+(defun definition-p (form operator environment)
+  "Return true if FORM is a definition by OPERATOR that closes over nothing local."
+  (and (eq (first form) operator)
        (global-environment-p environment)))
+
+(defparameter *definers* '(defun defmethod defgeneric def-cram-function def-plan
+                           def-top-level-cram-function)
+  "Operators that define functions.")
+
+(defun closes-over-p (form)
+  "Return true if FORM, of a plan file, is likely to define functions over something local."
+  (labels ((defines-p (part)
+             (and (consp part)
+                  (or (member (first part) *definers*)
+                      (loop for rest = part then (cdr rest)
+                            while (consp rest)
+                              thereis (defines-p (car rest)))))))
+    (and (consp form)
+         (member (first form) '(let let* flet labels multiple-value-bind destructuring-bind))
+         (defines-p (rest form)))))
+
+(defun evaluate-plan-form (form)
+  (if (and *closure-evaluator* (closes-over-p form))
+      (funcall *closure-evaluator* form)
+      (eval form)))
 
 (defun plan-file-hook (outer)
   "Return a function for *MACROEXPAND-HOOK*, where OUTER was, that lets definitions of functions
@@ -29,7 +55,9 @@ record their sources and definitions of packages see global names of packages on
   (lambda (expander form environment)
     (let ((expansion (funcall outer expander form environment)))
       (cond ((atom form) expansion)
-            ((helper-definition-p form environment)
+            ((definition-p form 'defmethod environment)
+             `(record-method ,expansion ',form))
+            ((definition-p form 'defun environment)
              (destructuring-bind (name lambda-list &rest body) (rest form)
                `(progn ,expansion
                        (record-helper ',name ',lambda-list ',body
@@ -44,7 +72,7 @@ record their sources and definitions of packages see global names of packages on
   "Load FILES, which are NAME as a whole, in PACKAGE; return the plans that they define, in order."
   (let ((*noted-plans* '())
         (*macroexpand-hook* (plan-file-hook *macroexpand-hook*)))
-    (source:load-sources files name :package package)
+    (source:load-sources files name :package package :evaluator #'evaluate-plan-form)
     (remove-duplicates (reverse *noted-plans*) :key #'plan-name)))
 
 ;;; Systems

@@ -18,7 +18,8 @@ perform.")
    ;; plans and their sources
    #:def-cram-function #:def-top-level-cram-function #:def-plan
    #:plan #:plan-name #:plan-lambda-list #:plan-body #:plan-documentation #:plan-position
-   #:plan-top-level-p #:find-plan #:current-plan-name #:plan-source #:load-plan #:ensure-top-level
+   #:plan-top-level-p #:find-plan #:current-plan-name #:plan-source #:method-source #:load-plan
+   #:*closure-evaluator* #:ensure-top-level
    ;; goals
    #:declare-goal #:def-goal #:succeed #:register-goal #:describe-goal
    ;; top-levels
@@ -96,6 +97,9 @@ perform.")
    #:perform #:perform-with #:generic-perform #:plan-known-p #:*control-functions*
     #:call-plan-function
    #:call-with-executive #:with-executive #:choose-strand
+   #:begin-turn #:ready-strands #:gives-way-p
+   #:strand-number #:strand-task #:strand-evaporating-p #:task-parent #:task-strand #:branch-code
+   #:perform-task-p #:all-needed-p
    #:leave-plan #:call-on-main #:current-handlers #:with-handlers
    #:try-reference-designator #:designator-reference-failure
    #:designator-reference-failure-result #:designator-goal-parsing-failure

@@ -10,7 +10,7 @@
 
 (defstruct (plan (:copier nil))
   "A plan's name and source."
-  (name nil :type symbol :read-only t)
+  (name nil :type (or symbol cons) :read-only t)
   (lambda-list '() :type list :read-only t)
   (body '() :type list :read-only t)
   (documentation nil :type (or null string) :read-only t)
@@ -38,15 +38,18 @@
     (format stream "~(~a~)~@[ at ~a~]" (plan-name plan)
             (and (plan-position plan) (princ-to-string (plan-position plan))))))
 
-(defvar *plans* (make-hash-table :test 'eq)
+(defvar *plans* (make-hash-table :test 'equal)
   "The plan of each name.")
+
+(defvar *method-sources* (make-hash-table :test 'eq :weakness :key :synchronized t)
+  "The DEFMETHOD form of each method that LOAD-PLAN has loaded.")
 
 (defvar *noted-plans* :none
   "The list of the plans that were recorded while LOAD-PLAN runs, the last one first.")
 
 (defun plan-source (name)
-  "Return the PLAN of the function named by the symbol NAME, also if that is a helper that LOAD-PLAN
-has loaded, or NIL.  One that was redefined since in another way has none."
+  "Return the PLAN of the function named NAME, also if that is a helper that LOAD-PLAN has loaded,
+or NIL.  One that was redefined since in another way has none."
   (let ((plan (gethash name *plans*)))
     (and plan (fboundp name) (eq (fdefinition name) (plan-function plan))
          plan)))
@@ -74,6 +77,15 @@ DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
                             :position position :helper-p t
                             :function (fdefinition name))))
   name)
+
+(defun record-method (method form)
+  "Record FORM, the DEFMETHOD form by which METHOD was just defined, and return METHOD."
+  (setf (gethash method *method-sources*) form)
+  method)
+
+(defun method-source (method)
+  "Return the DEFMETHOD form of METHOD if LOAD-PLAN has loaded it, or NIL."
+  (values (gethash method *method-sources*)))
 
 (defun split-body (body)
   "Return the forms, the declarations and the documentation string of the function body BODY."

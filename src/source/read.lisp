@@ -196,8 +196,8 @@ Of what the compiler says meanwhile the warnings are printed, a line each."
                       (simple-condition-format-arguments inner)))
         inner)))
 
-(defun evaluate-form (form file line)
-  "Evaluate FORM, which begins at LINE of FILE; an error is a SOURCE-ERROR if it does not say itself
+(defun evaluate-form (form file line evaluator)
+  "Call EVALUATOR with FORM, which begins at LINE of FILE; an error is a SOURCE-ERROR if it does not say itself
 where it is."
   (handler-bind ((error (lambda (condition)
                           (unless (self-explaining-p condition)
@@ -208,12 +208,13 @@ where it is."
                      (loading-problem (expansion-problem condition) (native-name file) line))))
     ;; A plan file is code: this is its loader.
     (let ((*load-pathname* file) (*load-truename* (truename file)))
-      (eval form))))
+      (funcall evaluator form))))
 
-(defun load-sources (files name &key (package *package*))
+(defun load-sources (files name &key (package *package*) (evaluator #'eval))
   "Load FILES one after the other, as LOAD-SOURCE does each, and return the list of their true
 names.  Functions that any of the files defines are not undefined in another one.  NAME is what a
-warning names that concerns them as a whole.  Signals SOURCE-ERROR."
+warning names that concerns them as a whole.  EVALUATOR is called with each form.  Signals
+SOURCE-ERROR."
   (let ((files (mapcar #'native-path files)))
     (call-with-warning-lines
      (lambda (note-place)
@@ -222,7 +223,7 @@ warning names that concerns them as a whole.  Signals SOURCE-ERROR."
            (let ((native-name (native-name file)))
              (map-forms (lambda (form line)
                           (funcall note-place native-name line)
-                          (evaluate-form form file line))
+                          (evaluate-form form file line evaluator))
                         file package)))
          (funcall note-place name nil))))
     (mapcar #'truename files)))

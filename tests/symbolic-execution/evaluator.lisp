@@ -5,10 +5,9 @@
 
 ;;; The evaluator on concrete programs: the same values and side effects as SBCL's compiler.
 
-(defun evaluate (form)
+(defun evaluated (form)
   "Return the list of the values of FORM in the symbolic evaluator."
-  (multiple-value-list
-   (funcall (symbolic::analyze form (symbolic::make-scope)) (vector nil))))
+  (multiple-value-list (symbolic:evaluate form)))
 
 (defun compiled (form)
   "Return the list of the values of FORM, compiled by SBCL."
@@ -79,7 +78,7 @@
 (test concrete-programs-as-compiled
   (dolist (program *programs*)
     (let ((expected (compiled program))
-          (found (handler-case (evaluate program)
+          (found (handler-case (evaluated program)
                    (symbolic:unsupported-form (condition) (princ-to-string condition)))))
       (is (or (equal expected found)
               (and (functionp (first expected)) (eq (first expected) (first found))))
@@ -87,8 +86,8 @@
   (is (eq :global *special*)))
 
 (test errors-of-evaluation
-  (signals unbound-variable (evaluate 'no-such-variable-anywhere))
-  (signals undefined-function (evaluate '(no-such-function-anywhere)))
-  (signals program-error (evaluate '((lambda (x) x))))
-  (signals symbolic:unsupported-form (evaluate '(return-from nowhere)))
-  (signals symbolic:unsupported-form (evaluate '(go nowhere))))
+  (signals unbound-variable (evaluated 'no-such-variable-anywhere))
+  (signals undefined-function (evaluated '(no-such-function-anywhere)))
+  (signals program-error (evaluated '((lambda (x) x))))
+  (signals symbolic:unsupported-form (evaluated '(return-from nowhere)))
+  (signals symbolic:unsupported-form (evaluated '(go nowhere))))

@@ -2,17 +2,25 @@
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
-(define-analyzer handler-bind (form scope)
+(define-analyzer (handler-bind sb-kernel::%handler-bind) (form scope)
   (destructuring-bind (bindings . body) (rest form)
     (let ((types (mapcar #'first bindings))
-          (handlers (mapcar (lambda (binding) (analyze (second binding) scope)) bindings))
-          (run (analyze-body body scope)))
-      (lambda (frame)
+          (handlers (loop for (nil handler) in bindings collect (analyze handler scope)))
+          (inside (analyze `(progn ,@body) scope)))
+      (declare (type function inside))
+      (code (frame)
         (plan:call-with-failure-handlers
          (loop for type in types for handler in handlers
-               collect (cons type (let ((function (funcall handler frame)))
-                                    (if (symbolp function) (global-function function) function))))
-         (lambda () (funcall run frame)))))))
+               collect (cons type (handler-function (run handler frame))))
+         (lambda () (run inside frame)))))))
+
+(defun handler-function (designator)
+  "Return the function that calls the function that DESIGNATOR is, and hands nothing on."
+  (let ((function (function-to-call designator)))
+    (declare (type function function))
+    (lambda (condition)
+      (funcall function condition)
+      nil)))
 
 (define-analyzer handler-case (form scope)
   (destructuring-bind (protected . clauses) (rest form)
@@ -21,7 +29,7 @@
            (tags (loop for nil in clauses collect (gensym "CLAUSE")))
            (block (gensym "HANDLER-CASE"))
            (condition (gensym "CONDITION")))
-      (analyze
+      (analyze-form
        `(block ,block
           (let ((,condition nil))
             (tagbody

@@ -1,144 +1,208 @@
 ;;;; Lambda expressions: interpreted functions with full lambda lists.
+;;;;
+;;;; A function with a few required parameters has the code of just so many arguments, which become
+;;;; its frame.  Any other one gets a list of its arguments, from which each of its parameters takes
+;;;; what is its own, in order.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
-(defun declared-specials (declarations)
-  "Return the variables that DECLARATIONS, a list of DECLARE forms, declare special."
-  (loop for (nil . specifiers) in declarations
-        append (loop for (kind . arguments) in specifiers
-                     when (eq kind 'special) append arguments)))
-
-(defun globally-special-p (symbol)
-  (eq (sb-cltl2:variable-information symbol) :special))
-
-(defun declaration-specifiers (declarations)
-  "Return the SPECIAL specifiers of DECLARATIONS that say something new; the evaluator ignores the
-others."
-  (let ((specials (remove-if #'globally-special-p (declared-specials declarations))))
-    (and specials `((special ,@specials)))))
-
-(defun special-variable-p (symbol declarations)
-  "Return true if a binding of SYMBOL under DECLARATIONS is special: because of them or globally.  A
-declaration further out does not count."
-  (or (member symbol (declared-specials declarations))
-      (globally-special-p symbol)))
-
-(defun call-with-bindings (scope declarations names values body)
-  "Return a closure that binds NAMES, in parallel, to the values of the closures VALUES and then
-calls the closure that BODY, a function of the inner scope, returns."
-  (let* ((specials (remove-if-not (lambda (name) (special-variable-p name declarations))
-                                  names))
-         (lexicals (set-difference names specials))
-         (lexicals (remove-if-not (lambda (name) (member name lexicals)) names))
-         (inner (extend-scope scope (or lexicals (list (gensym)))
-                              :variable (remove-if #'globally-special-p names)
-                              :declare (declaration-specifiers declarations)))
-         (run (funcall body inner))
-         (size (1+ (max 1 (length lexicals))))
-         (places (loop for name in names
-                       collect (let ((place (position name lexicals))) (and place (1+ place))))))
-    (if specials
-        (lambda (frame)
-          (let ((new (make-array size :initial-element nil))
-                (special-values '()))
-            (setf (svref new 0) frame)
-            (loop for value in values for place in places
-                  do (let ((value (funcall (the function value) frame)))
-                       (if place
-                           (setf (svref new place) value)
-                           ;; Compiled code may read it.
-                           (push (decided value "a special variable") special-values))))
-            (with-forgotten-writes (specials)
-              (progv specials (nreverse special-values) (funcall (the function run) new)))))
-        (lambda (frame)
-          (let ((new (make-array size :initial-element nil)))
-            (setf (svref new 0) frame)
-            (loop for value in values for place in places
-                  do (setf (svref new place) (funcall (the function value) frame)))
-            (funcall (the function run) new))))))
-
 (defun analyze-lambda (name lambda-list body scope)
-  "Return a closure that makes the interpreted function with LAMBDA-LIST and BODY."
+  "Return the code that makes the interpreted function with LAMBDA-LIST and BODY."
   (multiple-value-bind (forms declarations) (alexandria:parse-body body :documentation t)
-    (multiple-value-bind (required optional rest keywords allow-other-keys aux keyp)
-        (alexandria:parse-ordinary-lambda-list lambda-list)
-      (if (or optional rest keywords aux keyp)
-          (analyze-general-lambda name lambda-list forms declarations scope
-                                  (list required optional rest keywords allow-other-keys aux keyp))
-          (analyze-simple-lambda name required forms declarations scope)))))
+    (let ((specials (declared-specials declarations))
+          (*exits* '()) (*tails* '()))
+      (multiple-value-bind (required optional rest keys allow-other-keys aux keyp)
+          (handler-case (alexandria:parse-ordinary-lambda-list lambda-list)
+            (error (condition)
+              (error 'sb-int:simple-program-error
+                     :format-control "Malformed lambda list ~s: ~a"
+                     :format-arguments (list lambda-list condition))))
+        (if (or optional rest keyp aux
+                (notevery #'symbolp required)
+                (some (lambda (name) (special-p name specials)) required)
+                (/= (length required) (length (remove-duplicates required))))
+            (analyze-general-lambda name forms specials scope
+                                    (make-parameters required optional rest keys
+                                                     allow-other-keys keyp aux))
+            (analyze-simple-lambda required forms specials scope))))))
 
-(defun analyze-simple-lambda (name required forms declarations scope)
-  (let* ((count (length required))
-         (arguments (gensym "ARGUMENTS"))
-         (outer (extend-scope scope (list arguments) :variable (list arguments)))
-         (run (call-with-bindings
-               outer declarations required
-               (loop for index below count
-                     collect (let ((index index))
-                               (lambda (frame) (nth index (svref frame 1)))))
-               (lambda (inner) (analyze-body forms inner)))))
-    (lambda (frame)
-      (make-interpreted-function
-       name
-       (lambda (&rest values)
-         (unless (= (length values) count)
-           (error 'sb-int:simple-program-error
-                  :format-control "~a takes ~d argument~:p, not ~d."
-                  :format-arguments (list (or name "A function") count (length values))))
-         (funcall run (vector frame values)))))))
+(defun function-code (scope maker run)
+  "Return the code that makes a function: MAKER makes it of a frame and RUN, the code of its body.
+One that was made before a run of a plan and closes over variables remembers their values there."
+  (declare (type function maker run))
+  (if (null (scope-layouts scope))
+      (code (frame) (make-interpreted-function (funcall maker frame run)))
+      (let ((remembering (code (frame)
+                           (when *path* (note-frames (svref frame 0)))
+                           (run run frame))))
+        (code (frame)
+          (make-interpreted-function (funcall maker frame (if *path* run remembering)))))))
 
-(defun analyze-general-lambda (name lambda-list forms declarations scope parsed)
-  "The same for lambda lists with keywords: a compiled function of the same lambda list takes the
-arguments apart, the evaluator computes the defaults and binds the variables in order."
-  (destructuring-bind (required optional rest keywords allow-other-keys aux keyp) parsed
-    (let* ((missing (gensym "MISSING"))
-           (plain `(,@required
-                    ,@(and optional
-                           `(&optional ,@(loop for (variable) in optional
-                                               collect `(,variable ',missing))))
-                    ,@(and rest `(&rest ,rest))
-                    ,@(and keyp `(&key ,@(loop for ((keyword variable)) in keywords
-                                               collect `((,keyword ,variable) ',missing))))
-                    ,@(and allow-other-keys '(&allow-other-keys))))
-           (taken (append required (mapcar #'first optional) (and rest (list rest))
-                          (mapcar #'cadar keywords)))
-           (splitter (handler-bind ((warning #'muffle-warning))
-                       (compile nil `(lambda ,plain (list ,@taken)))))
-           (parameters (append (loop for variable in required collect (list variable nil nil))
-                               optional
-                               (and rest (list (list rest nil nil)))
-                               (loop for ((nil variable) init suppliedp) in keywords
-                                     collect (list variable init suppliedp))))
-           (values-name (gensym "VALUES"))
-           (outer (extend-scope scope (list values-name) :variable (list values-name))))
-      (labels ((bind (parameters index scope)
-                 (if (null parameters)
-                     (bind-aux aux scope)
-                     (destructuring-bind (variable init suppliedp) (first parameters)
-                       (let ((reader (multiple-value-call #'frame-reader
-                                       (variable-address values-name scope)))
-                             (default (analyze init scope)))
-                         (call-with-bindings
-                          scope declarations
-                          (if suppliedp (list variable suppliedp) (list variable))
-                          (cons (lambda (frame)
-                                  (let ((value (nth index (funcall reader frame))))
-                                    (if (eq value missing) (funcall default frame) value)))
-                                (and suppliedp
-                                     (list (lambda (frame)
-                                             (not (eq (nth index (funcall reader frame))
-                                                      missing))))))
-                          (lambda (inner) (bind (rest parameters) (1+ index) inner)))))))
-               (bind-aux (aux scope)
-                 (if aux
-                     (destructuring-bind (variable init) (first aux)
-                       (call-with-bindings scope declarations (list variable)
-                                           (list (analyze init scope))
-                                           (lambda (inner) (bind-aux (rest aux) inner))))
-                     (analyze-body forms scope))))
-        (let ((run (bind parameters 0 outer)))
-          (lambda (frame)
-            (make-interpreted-function
-             (or name lambda-list)
-             (lambda (&rest values)
-               (funcall run (vector frame (apply splitter values)))))))))))
+(defvar *noted-frames* (make-hash-table :test 'eq :weakness :key :synchronized t)
+  "The path on which the values in a frame were last noted.")
+
+(defun note-frames (frame)
+  "Note what is in FRAME and those around it, which are older than the path, to be restored."
+  (loop while frame
+        do (unless (eq (gethash frame *noted-frames*) *path*)
+             (setf (gethash frame *noted-frames*) *path*)
+             (let ((frame frame) (contents (copy-seq (the frame frame))))
+               (note-undo (lambda () (replace (the frame frame) contents)))))
+           (setf frame (svref (the frame frame) 0))))
+
+(defun analyze-simple-lambda (required forms specials scope)
+  (multiple-value-bind (inner layout) (scope-with-frame scope required)
+    (let* ((run (analyze-body forms (scope-with-specials inner specials)))
+           (size (layout-size layout)))
+      (declare (type function run) (type fixnum size))
+      (function-code
+       scope
+       (if (= size (1+ (length required)))
+           (case (length required)
+             (0 (lambda (frame run)
+                  (declare (type function run))
+                  (lambda () (run run (vector frame)))))
+             (1 (lambda (frame run)
+                  (declare (type function run))
+                  (lambda (a) (run run (vector frame a)))))
+             (2 (lambda (frame run)
+                  (declare (type function run))
+                  (lambda (a b) (run run (vector frame a b)))))
+             (3 (lambda (frame run)
+                  (declare (type function run))
+                  (lambda (a b c) (run run (vector frame a b c)))))
+             (t (list-taker size (length required))))
+           (list-taker size (length required)))
+       run))))
+
+(defun list-taker (size count)
+  "Return a function that makes a function of COUNT arguments with a frame of SIZE."
+  (declare (type fixnum size count))
+  (lambda (frame run)
+    (declare (type function run))
+    (lambda (&rest arguments)
+      (declare (dynamic-extent arguments))
+      (let ((new (make-array size :initial-element nil)))
+        (setf (svref new 0) frame)
+        (unless (= (length arguments) count)
+          (wrong-argument-count (length arguments)))
+        (loop for argument in arguments for index fixnum from 1
+              do (setf (svref new index) argument))
+        (run run new)))))
+
+(defun wrong-argument-count (count)
+  (error 'sb-int:simple-program-error :format-control "invalid number of arguments: ~s"
+                                      :format-arguments (list count)))
+
+;;; Other lambda lists.  Element 1 of the frame is the list of the arguments not taken yet, element
+;;; 2 says whether the last parameter was given.
+
+(defstruct (parameters (:constructor make-parameters
+                           (required optional rest keys allow-other-keys keyp aux))
+                       (:copier nil))
+  "The parts of an ordinary lambda list, as ALEXANDRIA:PARSE-ORDINARY-LAMBDA-LIST returns them."
+  required optional rest keys allow-other-keys keyp aux)
+
+(defun analyze-general-lambda (name forms specials scope parameters)
+  (declare (ignore name))
+  (let* ((layout (make-layout :size 3))
+         (inner (extend-scope scope :layout layout))
+         (run (bind-in-order (parameter-bindings parameters) inner specials
+                             (lambda (scope)
+                               (analyze-body forms (scope-with-specials scope specials)))))
+         (size (layout-size layout))
+         (minimum (length (parameters-required parameters)))
+         (maximum (and (not (parameters-rest parameters)) (not (parameters-keyp parameters))
+                       (+ minimum (length (parameters-optional parameters))))))
+    (declare (type function run) (type fixnum size minimum))
+    (function-code
+     scope
+     (lambda (frame run)
+       (declare (type function run))
+       (lambda (&rest arguments)
+         (let ((count (length arguments))
+               (new (make-array size :initial-element nil)))
+           (when (or (< count minimum) (and maximum (> count (the fixnum maximum))))
+             (wrong-argument-count count))
+           (setf (svref new 0) frame
+                 (svref new 1) arguments)
+           (run run new))))
+     run)))
+
+(defun parameter-bindings (parameters)
+  "Return the bindings of PARAMETERS, as BIND-IN-ORDER wants them."
+  (append (loop for name in (parameters-required parameters)
+                collect (cons name (constantly (code (frame) (pop (svref frame 1))))))
+          (loop for (name default suppliedp) in (parameters-optional parameters)
+                append (parameter-binding name default suppliedp #'take-optional))
+          (and (parameters-rest parameters)
+               (list (cons (parameters-rest parameters)
+                           (constantly (code (frame) (svref frame 1))))))
+          (and (parameters-keyp parameters)
+               (list (cons (gensym "KEYS") (constantly (keyword-check parameters)))))
+          (loop for ((keyword name) default suppliedp) in (parameters-keys parameters)
+                append (parameter-binding name default suppliedp (keyword-taker keyword)))
+          (loop for (name form) in (parameters-aux parameters)
+                collect (let ((form form))
+                          (cons name (lambda (scope) (analyze form scope)))))))
+
+(defun parameter-binding (name default suppliedp taker)
+  "Return the bindings of NAME and of SUPPLIEDP, unless that is NIL.  TAKER is a function of a frame
+that returns the argument and whether it was given."
+  (declare (type function taker))
+  (cons (cons name
+              (lambda (scope)
+                (let ((default (analyze default scope)))
+                  (declare (type function default))
+                  (code (frame)
+                    (multiple-value-bind (value given) (funcall taker frame)
+                      (let ((value (if given value (run default frame))))
+                        (setf (svref frame 2) given)
+                        value))))))
+        (and suppliedp
+             (list (cons suppliedp (constantly (code (frame) (svref frame 2))))))))
+
+(defun take-optional (frame)
+  (declare (type frame frame))
+  (let ((arguments (svref frame 1)))
+    (if arguments
+        (progn (setf (svref frame 1) (rest arguments))
+               (values (first arguments) t))
+        (values nil nil))))
+
+(defun keyword-taker (keyword)
+  (lambda (frame)
+    (declare (type frame frame))
+    (loop for (key value) on (svref frame 1) by #'cddr
+          when (eq key keyword)
+            return (values value t))))
+
+(defun keyword-check (parameters)
+  "Return the code that signals a PROGRAM-ERROR if the arguments left are no keyword arguments of
+PARAMETERS."
+  (let ((known (mapcar #'caar (parameters-keys parameters)))
+        (allow-other-keys (parameters-allow-other-keys parameters)))
+    (code (frame)
+      (let ((arguments (svref frame 1)))
+        (unless (evenp (length arguments))
+          (error 'sb-int:simple-program-error :format-control "odd number of &KEY arguments"))
+        (unless (or allow-other-keys (getf arguments :allow-other-keys))
+          (loop for (key) on arguments by #'cddr
+                unless (or (member key known) (eq key :allow-other-keys))
+                  do (error 'sb-int:simple-program-error
+                            :format-control "unknown &KEY argument: ~s"
+                            :format-arguments (list key))))
+        nil))))
+
+;;; Plans
+
+(defvar *interpreted-plans* (make-hash-table :test 'eq :weakness :key :synchronized t)
+  "The interpreted function of each PLAN that was called.")
+
+(defun interpreted-plan (plan)
+  "Return the interpreted function of PLAN."
+  (or (gethash plan *interpreted-plans*)
+      (setf (gethash plan *interpreted-plans*)
+            (run (local-function-maker (plan:plan-name plan) (plan:plan-lambda-list plan)
+                                       (plan:plan-body plan) (make-scope))
+                 (vector nil)))))

@@ -1,145 +1,124 @@
-;;;; The special operators that plans and the expansions of plan forms use.
+;;;; The special operators that neither bind variables nor jump, and SBCL's own.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
 (define-analyzer quote (form scope)
-  (constant-closure (second form)))
+  (constant-code (second form)))
 
 (define-analyzer progn (form scope)
   (analyze-body (rest form) scope))
 
 (define-analyzer if (form scope)
+  (unless (<= 3 (length form) 4)
+    (unsupported form "IF has two or three arguments"))
   (destructuring-bind (test then &optional else) (rest form)
-    (let ((description (describe-form form))
-          (test (analyze test scope)) (then (analyze then scope)) (else (analyze else scope)))
-      (lambda (frame)
-        (let ((value (funcall (the function test) frame)))
-          (if (if (symbolic-value-p value) (truth value description) value)
-              (funcall (the function then) frame)
-              (funcall (the function else) frame)))))))
-
-(define-analyzer the (form scope)
-  (analyze (third form) scope))
-
-(define-analyzer sb-ext:truly-the (form scope)
-  (analyze (third form) scope))
-
-(define-analyzer sb-kernel:the* (form scope)
-  (analyze (third form) scope))
-
-(define-analyzer sb-c::with-source-form (form scope)
-  (analyze-body (cddr form) scope))
+    (let ((site (make-site form))
+          (test (analyze test scope))
+          (then (analyze-form then scope))
+          (else (analyze-form else scope)))
+      (declare (type function test then else))
+      (code (frame)
+        (let ((value (run test frame)))
+          (if (if (symbolic-value-p value) (truth value (site-description site)) value)
+              (run then frame)
+              (run else frame)))))))
 
 (define-analyzer eval-when (form scope)
   (if (intersection (second form) '(:execute eval))
       (analyze-body (cddr form) scope)
-      (constant-closure nil)))
+      (constant-code nil)))
 
 (define-analyzer load-time-value (form scope)
-  (constant-closure (funcall (analyze (second form) (make-scope)) (vector nil))))
+  (constant-code (let ((*path* nil)) (values (evaluate-form (second form))))))
 
-;;; Variables
+;;; Types.  What is declared is checked where SBCL checks it, at THE.
 
-(defun binding-parts (binding)
-  (if (consp binding) (values (first binding) (second binding)) (values binding nil)))
+(define-analyzer the (form scope)
+  (destructuring-bind (type value) (rest form)
+    (let ((code (analyze-form value scope))
+          (checked (checked-type type)))
+      (if (eq checked t)
+          code
+          (checking-code code checked scope)))))
 
-(define-analyzer let (form scope)
-  (multiple-value-bind (forms declarations) (alexandria:parse-body (cddr form))
-    (call-with-bindings
-     scope declarations
-     (mapcar (lambda (binding) (values (binding-parts binding))) (second form))
-     (mapcar (lambda (binding) (analyze (nth-value 1 (binding-parts binding)) scope))
-             (second form))
-     (lambda (inner) (analyze-body forms inner)))))
+(defun checked-type (type)
+  "Return the type, of the first value, that THE with TYPE checks."
+  (let ((type (if (and (consp type) (eq (first type) 'values))
+                  (if (member (second type) '(&optional &rest)) t (second type))
+                  (sb-ext:typexpand type))))
+    (cond ((and (consp type) (eq (first type) 'function)) 'function)
+          ((and (consp type) (eq (first type) 'values)) (checked-type type))
+          (t (or type t)))))
 
-(define-analyzer let* (form scope)
-  (multiple-value-bind (forms declarations) (alexandria:parse-body (cddr form))
-    (labels ((bind (bindings scope)
-               (if bindings
-                   (multiple-value-bind (name init) (binding-parts (first bindings))
-                     (call-with-bindings scope declarations (list name)
-                                         (list (analyze init scope))
-                                         (lambda (inner) (bind (rest bindings) inner))))
-                   (analyze-body forms (extend-scope scope '() :declare (declaration-specifiers
-                                                                         declarations))))))
-      (bind (second form) scope))))
+(defun checking-code (code type scope)
+  (declare (type function code) (ignore scope))
+  (let ((parsed (sb-kernel:specifier-type type)))
+    (flet ((check (value)
+             (unless (or (symbolic-value-p value) (jump-p value)
+                         (sb-kernel:%%typep value parsed))
+               (error 'type-error :datum value :expected-type type))))
+      (code (frame)
+        (multiple-value-call (lambda (&rest values)
+                               (declare (dynamic-extent values))
+                               (check (first values))
+                               (values-list values))
+          (run code frame))))))
 
-(define-analyzer setq (form scope)
-  (let ((assignments
-          (loop for (name value) on (rest form) by #'cddr
-                collect (if (eq (variable-kind name scope) :symbol-macro)
-                            (analyze `(setf ,name ,value) scope)
-                            (analyze-assignment name (analyze value scope) scope)))))
-    (lambda (frame)
-      (let ((value nil))
-        (dolist (assignment assignments value)
-          (setf value (funcall (the function assignment) frame)))))))
-
-(defun analyze-assignment (name value scope)
-  (if (eq (variable-kind name scope) :lexical)
-      (let ((writer (multiple-value-call #'frame-writer (variable-address name scope))))
-        (lambda (frame) (funcall writer frame (funcall (the function value) frame))))
-      (lambda (frame)
-        (let ((new (decided (funcall (the function value) frame) "a special variable")))
-          (note-write name)
-          (setf (symbol-value name) new)))))
-
-(define-analyzer locally (form scope)
-  (multiple-value-bind (forms declarations) (alexandria:parse-body (rest form))
-    (analyze-body forms (extend-scope scope '() :declare (declaration-specifiers declarations)))))
-
-(define-analyzer symbol-macrolet (form scope)
-  (multiple-value-bind (forms declarations) (alexandria:parse-body (cddr form))
-    (analyze-body forms (extend-scope scope '() :symbol-macro (second form)
-                                                :declare (declaration-specifiers declarations)))))
-
-(define-analyzer macrolet (form scope)
-  (analyze-body
-   (alexandria:parse-body (cddr form))
-   (extend-scope scope '()
-                 :macro (loop for (name lambda-list . body) in (second form)
-                              collect (list name
-                                            (sb-cltl2:enclose
-                                             (sb-cltl2:parse-macro name lambda-list body
-                                                                   (scope-environment scope))
-                                             (scope-environment scope)))))))
+(define-analyzer (sb-ext:truly-the sb-kernel:the* sb-c::with-source-form) (form scope)
+  (analyze-body (cddr form) scope))
 
 ;;; Functions
 
-(define-analyzer function (form scope)
+(define-analyzer (function sb-c::global-function) (form scope)
   (let ((name (second form)))
-    (cond ((and (consp name) (eq (first name) 'lambda))
-           (analyze-lambda nil (second name) (cddr name) scope))
-          ((and (consp name) (eq (first name) 'sb-int:named-lambda))
-           (analyze-lambda (second name) (third name) (cdddr name) scope))
-          ((if (symbolp name)
-               (eq (local-kind name scope) :function)
-               (function-address name scope))
-           (multiple-value-call #'frame-reader (function-address name scope)))
-          (t (lambda (frame) (declare (ignore frame)) (global-function name))))))
+    (typecase name
+      ((cons (eql lambda)) (analyze-lambda nil (second name) (cddr name) scope))
+      ((cons (eql sb-int:named-lambda))
+       (analyze-lambda (second name) (third name) (cdddr name) scope))
+      (t (let ((meaning (function-meaning name scope)))
+           (cond ((place-p meaning) (frame-reader meaning scope))
+                 ((typep name '(or symbol (cons (eql setf) (cons symbol null))))
+                  (let ((callee (find-callee name)))
+                    (code (frame) (function-as-value callee))))
+                 (t (unsupported form "it is not the name of a function"))))))))
 
-(defun local-function-makers (definitions scope)
-  (loop for (name lambda-list . body) in definitions
-        collect (multiple-value-bind (forms declarations) (alexandria:parse-body body
-                                                                                 :documentation t)
-                  (analyze-lambda name lambda-list
-                                  `(,@declarations (block ,(if (consp name) (second name) name)
-                                                     ,@forms))
-                                  scope))))
+(define-analyzer sb-int:named-lambda (form scope)
+  (analyze-lambda (second form) (third form) (cdddr form) scope))
+
+(defun function-as-value (callee)
+  "Return the function of CALLEE for use as a value: Common Lisp's own, since compiled code may ask
+which it is.  Who calls it in a plan asks CODE-OF for the version that knows symbolic values."
+  (global-function (callee-name callee)))
 
 (defun analyze-local-functions (form scope recursive)
-  (let* ((names (mapcar #'first (second form)))
-         (inner (extend-scope scope (mapcar (lambda (name) (list :function name)) names)
-                              :function names))
-         (makers (local-function-makers (second form) (if recursive inner scope)))
-         (run (analyze-body (alexandria:parse-body (cddr form)) inner))
-         (size (1+ (length names))))
-    (lambda (frame)
-      (let ((new (make-array size)))
-        (setf (svref new 0) frame)
-        (loop for maker in makers for index from 1
-              do (setf (svref new index) (funcall maker (if recursive new frame))))
-        (funcall run new)))))
+  (let ((definitions (second form)))
+    (multiple-value-bind (forms specials) (split-body (cddr form) scope)
+      (let* ((names (mapcar #'first definitions))
+             (layout (make-layout :size (1+ (length names))))
+             (inner (extend-scope
+                     scope :layout layout
+                     :functions (loop for name in names for index from 1
+                                      collect (cons name (make-place layout index)))
+                     :augmentation (and names (list :function names))))
+             (makers (loop for (name lambda-list . body) in definitions
+                           collect (local-function-maker name lambda-list body
+                                                         (if recursive inner scope))))
+             (inside (analyze-body forms (scope-with-specials inner specials)))
+             (size (layout-size layout)))
+        (declare (type function inside) (type fixnum size))
+        (code (frame)
+          (let ((new (make-array size :initial-element nil)))
+            (setf (svref new 0) frame)
+            (loop for maker in makers for index fixnum from 1
+                  do (setf (svref new index) (run maker (if recursive new frame))))
+            (run inside new)))))))
+
+(defun local-function-maker (name lambda-list body scope)
+  (multiple-value-bind (forms declarations) (alexandria:parse-body body :documentation t)
+    (analyze-lambda name lambda-list
+                    `(,@declarations
+                      (block ,(if (consp name) (second name) name) ,@forms))
+                    scope)))
 
 (define-analyzer flet (form scope)
   (analyze-local-functions form scope nil))
@@ -147,95 +126,32 @@
 (define-analyzer labels (form scope)
   (analyze-local-functions form scope t))
 
-;;; Control.  A block or tagbody that is entered puts a fresh object into its frame; leaving it is a
-;;; throw to that object.
-
-(define-analyzer block (form scope)
-  (destructuring-bind (name . body) (rest form)
-    (let ((run (analyze-body body (extend-scope scope (list (list :block name))))))
-      (lambda (frame)
-        (let ((tag (list name)))
-          (catch tag (funcall (the function run) (vector frame tag))))))))
-
-(define-analyzer return-from (form scope)
-  (destructuring-bind (name &optional value) (rest form)
-    (multiple-value-bind (depth index)
-        (find-address scope (lambda (key)
-                              (and (consp key) (eq (first key) :block) (eq (second key) name))))
-      (unless depth (unsupported form "there is no such block around it"))
-      (let ((tag (frame-reader depth index)) (value (analyze value scope)))
-        (lambda (frame) (throw (funcall tag frame) (funcall (the function value) frame)))))))
-
-(define-analyzer tagbody (form scope)
-  (let* ((tags (remove-if #'consp (rest form)))
-         (inner (extend-scope scope (list (list* :tags tags))))
-         (segments (let ((segments (list '())))
-                     (dolist (part (rest form)
-                                   (mapcar (lambda (forms) (analyze-body (reverse forms) inner))
-                                           (nreverse segments)))
-                       (if (consp part)
-                           (push part (first segments))
-                           (push '() segments))))))
-    (lambda (frame)
-      (let* ((id (list :tagbody))
-             (new (vector frame id))
-             (next 0))
-        (loop while next
-              do (setf next (catch id
-                              (dolist (segment (nthcdr next segments) nil)
-                                (funcall (the function segment) new)))))
-        nil))))
-
-(define-analyzer go (form scope)
-  (let ((tag (second form)))
-    (flet ((tags-p (key) (and (consp key) (eq (first key) :tags) (member tag (rest key)))))
-      (multiple-value-bind (depth index) (find-address scope #'tags-p)
-        (unless depth (unsupported form "there is no such tag around it"))
-        (let* ((reader (frame-reader depth index))
-               (key (find-if #'tags-p (nth depth (scope-frames scope))))
-               (segment (1+ (position tag (rest key)))))
-          (lambda (frame)
-            (when *path* (count-jump *path*))
-            (throw (funcall reader frame) segment)))))))
+;;; Control
 
 (define-analyzer catch (form scope)
-  (let ((tag (analyze (second form) scope)) (run (analyze-body (cddr form) scope)))
-    (lambda (frame) (catch (funcall tag frame) (funcall run frame)))))
+  (let ((tag (analyze (second form) scope)) (inside (analyze-body (cddr form) scope)))
+    (declare (type function tag inside))
+    (code (frame) (catch (run tag frame) (run inside frame)))))
 
 (define-analyzer throw (form scope)
   (let ((tag (analyze (second form) scope)) (value (analyze (third form) scope)))
-    (lambda (frame) (throw (funcall tag frame) (funcall value frame)))))
+    (declare (type function tag value))
+    (code (frame) (throw (run tag frame) (run value frame)))))
 
 (define-analyzer unwind-protect (form scope)
-  (let ((protected (analyze (second form) scope)) (cleanup (analyze-body (cddr form) scope)))
-    (lambda (frame)
-      (unwind-protect (funcall protected frame)
+  (let ((protected (analyze-form (second form) scope))
+        (cleanup (analyze `(progn ,@(cddr form)) scope)))
+    (declare (type function protected cleanup))
+    (code (frame)
+      (unwind-protect (run protected frame)
         ;; The plan does not notice that its path is abandoned.
         (unless (and *path* (path-ending *path*))
-          (funcall cleanup frame))))))
-
-(define-analyzer progv (form scope)
-  (let ((names (analyze (second form) scope)) (values (analyze (third form) scope))
-        (run (analyze-body (cdddr form) scope)))
-    (lambda (frame)
-      (let ((names (funcall names frame)))
-        (with-forgotten-writes (names)
-          (progv names (decided (funcall values frame) "a special variable")
-            (funcall run frame)))))))
+          (run cleanup frame))))))
 
 ;;; Multiple values
 
 (define-analyzer multiple-value-prog1 (form scope)
-  (let ((first (analyze (second form) scope)) (rest (analyze-body (cddr form) scope)))
-    (lambda (frame) (multiple-value-prog1 (funcall first frame) (funcall rest frame)))))
-
-(define-analyzer multiple-value-call (form scope)
-  (let ((function (analyze (second form) scope))
-        (arguments (analyze-arguments (cddr form) scope))
-        (description (describe-form form)))
-    (lambda (frame)
-      (let ((function (funcall function frame)))
-        (call-function (if (symbolp function) (global-function function) function)
-                       (loop for argument in arguments
-                             append (multiple-value-list (funcall argument frame)))
-                       description)))))
+  (let ((first (analyze (second form) scope))
+        (rest (analyze `(progn ,@(cddr form)) scope)))
+    (declare (type function first rest))
+    (code (frame) (multiple-value-prog1 (run first frame) (run rest frame)))))

@@ -1,0 +1,97 @@
+;;;; Programs about places: each is run by SBCL's compiler and by the evaluator.
+
+(in-package #:discrepancy-finder.tests)
+
+(define-programs places
+  (setf) (let (x) (setf x 1)) (let (x y) (setf x 1 y (1+ x)) (list x y))
+  (let ((l (list 1 2))) (setf (car l) 5 (cdr l) 6) l)
+  (let ((l (list 1 2 3))) (setf (second l) :b (third l) :c) l)
+  (let ((l (list 1 2 3))) (setf (nth 1 l) :n) l)
+  (let ((l (list 1 2 3))) (setf (nthcdr 1 l) '(x)) l) (let ((l (list 1 2))) (setf (rest l) nil) l)
+  (let ((l (list (list 1)))) (setf (caar l) 2) l)
+  (let ((l (list 1 2 3 4))) (setf (cddr l) '(:z)) l) (let ((v (vector 1 2))) (setf (aref v 0) 9) v)
+  (let ((v (vector 1 2))) (setf (svref v 1) 9) v)
+  (let ((a (make-array '(2 2) :initial-element 0))) (setf (aref a 1 0) 7) a)
+  (let ((a (make-array '(2 2) :initial-element 0))) (setf (row-major-aref a 3) 7) a)
+  (let ((s (copy-seq "abc"))) (setf (char s 1) #\z) s)
+  (let ((s (copy-seq "abc"))) (setf (schar s 0) #\y) s)
+  (let ((s (copy-seq "abc"))) (setf (subseq s 0 2) "xy") s)
+  (let ((l (list 1 2 3))) (setf (elt l 2) 4) l)
+  (let ((b (make-array 3 :element-type 'bit))) (setf (bit b 1) 1) b)
+  (let ((v (make-array 3 :fill-pointer 0))) (setf (fill-pointer v) 2) (length v))
+  (let ((h (make-hash-table))) (setf (gethash 1 h) 2) (gethash 1 h))
+  (let ((h (make-hash-table :test 'equal))) (setf (gethash "a" h) 1 (gethash "b" h) 2) (list
+    (hash-table-count h) (gethash "a" h)))
+  (let ((h (make-hash-table))) (incf (gethash :a h 10)) (gethash :a h))
+  (let ((h (make-hash-table))) (push 1 (gethash :a h)) (push 2 (gethash :a h)) (gethash :a h))
+  (let ((h (make-hash-table))) (setf (gethash 1 h) 1) (list (remhash 1 h) (remhash 1 h) (gethash 1
+    h)))
+  (let ((p (list :a 1))) (setf (getf p :b) 2) p) (let ((p (list :a 1))) (setf (getf p :a) 2) p)
+  (let ((p (list :a 1))) (incf (getf p :a 0) 5) p)
+  (let ((p (list :a 1 :b 2))) (list (remf p :a) p)) (let ((p (list :a 1))) (list (remf p :z) p))
+  (progn (setf (get 'prop-symbol 'k) 1) (incf (get 'prop-symbol 'k)) (list (get 'prop-symbol 'k)
+    (remprop 'prop-symbol 'k) (get 'prop-symbol 'k)))
+  (progn (setf (symbol-value 'some-global) 3) some-global)
+  (progn (setf (symbol-plist 'prop-symbol) '(a 1)) (get 'prop-symbol 'a))
+  (progn (setf (symbol-function 'set-fn) (lambda (x) (* x 3))) (set-fn 4))
+  (progn (setf (fdefinition 'set-fn) (lambda (x) (* x 4))) (set-fn 4))
+  (progn (setf (macro-function 'set-macro) (lambda (form env) (declare (ignore env)) `(list ,@(rest
+    form)))) (macroexpand-1 '(set-macro 1)))
+  (let (a b) (setf (values a b) (floor 7 2)) (list a b))
+  (let ((l (list 1 2)) b) (multiple-value-list (setf (values (car l) b) (values 5 6 7))))
+  (let (a b) (setf (values a b) 1) (list a b)) (let ((x 5)) (setf (the integer x) 6) x)
+  (let ((x 0)) (setf (ldb (byte 2 1) x) 3) x) (let ((x 15)) (setf (logbitp 1 x) t))
+  (let ((x #b1010)) (setf (mask-field (byte 2 0) x) 3) x)
+  (let ((l (list 1 2))) (multiple-value-list (setf (car l) (values 7 8)))) (let ((x 1)) (incf x))
+  (let ((x 1)) (incf x 5) x) (let ((x 1)) (decf x) x) (let ((x 1.5)) (incf x 1/2) x)
+  (let ((l (list 1 2))) (incf (car l)) (decf (cadr l) 5) l)
+  (let ((i 0) (v (vector 1 2 3))) (incf (aref v (incf i)) 10) (list i v))
+  (let ((n 0)) (flet ((at () (incf n) 1)) (let ((v (vector 1 2))) (incf (aref v (at))) (list n
+    v))))
+  (let ((l '())) (push 1 l) (push 2 l) l) (let ((l (list 1 2))) (list (pop l) l))
+  (let ((l '())) (list (pop l) l)) (let ((l (list 1))) (pushnew 1 l) (pushnew 2 l) l)
+  (let ((l (list "a"))) (pushnew "a" l :test #'equal) l)
+  (let ((l (list '(1 a)))) (pushnew '(1 b) l :key #'car) l)
+  (let ((l (list (list 1 2) 3))) (list (pop (car l)) l))
+  (let ((l (list nil 3))) (push 1 (car l)) (push 2 (car l)) l)
+  (let ((v (vector '() '()))) (push 1 (aref v 1)) v)
+  (let ((i 0) (v (vector (list 1) (list 2)))) (pop (aref v (1- (incf i)))) (list i v))
+  (let ((a 1) (b 2)) (rotatef a b) (list a b))
+  (let ((a 1) (b 2) (c 3)) (rotatef a b c) (list a b c)) (rotatef) (let ((x 1)) (rotatef x))
+  (let ((l (list 1 2 3))) (rotatef (car l) (third l)) l)
+  (let ((a 1) (b 2)) (list (shiftf a b 3) a b)) (let ((x 1)) (list (shiftf x (1+ x)) x))
+  (let ((l (list 1 2 3))) (list (shiftf (first l) (second l) (third l) :z) l))
+  (let ((i 0) (v (vector 1 2 3))) (rotatef (aref v i) (aref v (incf i)) (aref v (incf i))) (list i
+    v))
+  (let ((a 1) (b 2)) (psetf a b b a) (list a b)) (psetf)
+  (let ((l (list 1 2))) (psetf (car l) (cadr l) (cadr l) (car l)) l)
+  (let (a b c) (rotatef (values a b) (values b c)) (list a b c))
+  (let ((l (list 1 2))) (symbol-macrolet ((x (car l))) (setf x 5) (incf x) (list x l)))
+  (let ((l (list 1 2))) (symbol-macrolet ((x (car l)) (y (cadr l))) (rotatef x y) l))
+  (let ((l (list 1 2))) (symbol-macrolet ((x (car l))) (setq x 7) (psetq x (1+ x)) l))
+  (symbol-macrolet ((x 5)) (let ((x 6)) x))
+  (let ((x 1)) (symbol-macrolet ((x 2)) (list x (let ((x 3)) x))))
+  (symbol-macrolet ((a b) (b 3)) a)
+  (let ((x 1)) (symbol-macrolet ((y x)) (let ((x 2)) (declare (ignorable x)) y)))
+  (let ((x (list 1))) (symbol-macrolet ((y (car x))) (multiple-value-setq (y) (values 9)) (push 3
+    y) x))
+  (defsetf first-of (x) (v) `(progn (rplaca ,x ,v) ,v)) (defun first-of (x) (car x))
+  (let ((l (list 1 2))) (setf (first-of l) 4) (incf (first-of l)) l)
+  (progn (defun set-2nd (l v) (setf (cadr l) v)) (defsetf two-of set-2nd) (defun two-of (l) (cadr
+    l)) (let ((l (list 1 2))) (list (setf (two-of l) 8) l)))
+  (progn (define-modify-macro appendf (&rest more) append) (let ((l (list 1))) (list (appendf l
+    '(2) '(3)) l)))
+  (progn (define-modify-macro mulf (&optional (n 2)) *) (let ((x 3)) (mulf x) (mulf x 10) x))
+  (progn (define-setf-expander last-of (x &environment env) (multiple-value-bind (vars vals stores
+    set get) (get-setf-expansion x env) (declare (ignore stores set)) (let ((new (gensym))) (values
+    vars vals (list new) `(setf (car (last ,get)) ,new) `(car (last ,get)))))) (let ((l (list 1 2
+    3))) (setf (last-of l) 9) (incf (last-of l)) l))
+  (progn (defun (setf third-of) (v l) (setf (caddr l) v)) (defun third-of (l) (caddr l)) (let ((l
+    (list 1 2 3))) (setf (third-of l) 5) (push 4 (third-of l)) l))
+  (let ((l (list 1 2))) (setf (apply #'aref (vector l 1) '(0)) 3))
+  (let ((a (make-array '(2 2) :initial-element 0))) (setf (apply #'aref a '(1 1)) 3) a)
+  (let ((log '())) (flet ((note (x) (push x log) x)) (let ((l (list 1 2))) (setf (car (progn (note
+    :place) l)) (note :value)) (list l (reverse log)))))
+  (let ((log '())) (flet ((note (x) (push x log) x)) (let ((h (make-hash-table))) (setf (gethash
+    (note :key) (progn (note :table) h) (note :default)) (note :value)) (reverse log))))
+  (let ((x 1) (y 2)) (setf (if t x y) 3)) (setf (no-such-accessor 1) 2))
