@@ -236,6 +236,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "conses") (:file "sequences") (:file "arrays")
                              (:file "hash-tables") (:file "instances") (:file "symbols")
                              (:file "choices") (:file "output") (:file "fluent-operators")))
+               (:file "coverage/recording")
                (:module "evaluator"
                 :serial t
                 :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
@@ -252,7 +253,10 @@ The environment variable CXX names another compiler than g++."))
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
                              (:file "runs") (:file "exploration") (:file "initial-states")
                              (:file "next-trace")
-                             (:file "verification") (:file "trace-json") (:file "world")))))
+                             (:file "verification") (:file "trace-json") (:file "world")))
+               (:module "coverage"
+                :serial t
+                :components ((:file "coverage") (:file "text") (:file "html")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -332,7 +336,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "lifted-programs") (:file "values") (:file "symbolic-values")
                              (:file "lifted") (:file "lifted-random")
                              (:file "define-action") (:file "interleavings")
-                             (:file "random-plans") (:file "searching")))
+                             (:file "random-plans") (:file "searching") (:file "coverage")
+                             (:file "cpl-operators")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")

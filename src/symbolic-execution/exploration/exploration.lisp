@@ -20,6 +20,7 @@
           :documentation "The order of the paths, a keyword.")
    (seed :initarg :seed :reader exploration-seed :documentation "The seed of the order :RANDOM.")
    (interleavings :initarg :interleavings :reader exploration-interleavings)
+   (recorder :initarg :recorder :reader exploration-recorder)
    (uses :initform (make-hash-table :test 'eq) :reader exploration-uses
          :documentation "The LISP-USE of each branch.")
    (file-output :initarg :file-output :reader exploration-file-output)
@@ -171,7 +172,7 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
 (defun make-exploration (plan domain
                          &key constraint arguments (traces :last) (order :depth-first) (seed 0)
                            (max-paths 10000) (max-steps 1000) (max-jumps 1000000) max-seconds
-                           interleavings file-output progress solver-timeout solver-options
+                           interleavings coverage file-output progress solver-timeout solver-options
                            keep-errors)
   "Return an EXPLORATION of the plan named PLAN (a symbol) in DOMAIN (an ACTION-THEORY or its name).
   CONSTRAINT  a state constraint, its name, or a formula over ?time and (+ ?time n); with NIL the
@@ -186,6 +187,7 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
               and MAX-SECONDS (in all, or NIL) bound the search; what they cut off is a gap
   INTERLEAVINGS  with NIL tasks that run in parallel take turns in one fixed order, with T all
               orders are explored in which the outcome can differ, with :ALL all orders
+  COVERAGE    true if what is evaluated, taken and exercised is to be recorded, see COVERAGE
   FILE-OUTPUT true if the plan may write files: no run's writing is undone
   KEEP-ERRORS true if an error that the plan does not handle only ends its path, instead of being
               signaled as PLAN-BROKE
@@ -214,6 +216,7 @@ UNSUPPORTED-FORM."
                                                    (ec:state-constraint-formula constraint)))
                    :traces (if (and any-action (eq traces :last)) :every-instance traces)
                    :order order :seed seed :interleavings interleavings
+                   :recorder (and coverage (make-recorder))
                    :file-output (and file-output t) :keep-errors (and keep-errors t)
                    :max-paths max-paths :max-steps max-steps :max-jumps max-jumps
                    :max-seconds max-seconds :progress progress

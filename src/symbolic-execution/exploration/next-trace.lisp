@@ -108,8 +108,11 @@
 NIL if there is no path."
   (let ((path (make-run-path exploration (reverse prefix)))
         (arguments (current-arguments exploration))
-        (frontier (exploration-frontier exploration)))
+        (frontier (exploration-frontier exploration))
+        (*recorder* (exploration-recorder exploration)))
     (when (exploration-consistent-p exploration)
+      (when (and *recorder* (null prefix))
+        (note-initial-state *recorder* (first (path-states path))))
       (let ((output (run-plan-on path (interpreted-plan (exploration-plan exploration))
                                  (mapcar #'argument-value arguments))))
         (note-races path)
@@ -222,12 +225,12 @@ question is taken for possible."
 
 (defun explore-plan (plan &rest options &key domain constraint arguments traces order seed
                                           max-paths max-steps max-jumps max-seconds interleavings
-                                          file-output progress solver-timeout solver-options)
+                                          coverage file-output progress solver-timeout solver-options)
   "Return an EXPLORATION that has found every trace of PLAN in DOMAIN and holds no foreign memory.
 The options are those of MAKE-EXPLORATION.  While it is at work, e.g. in the debugger after C-c, the
 restart STOP-EXPLORING returns what was found so far."
   (declare (ignore constraint arguments traces order seed max-paths max-steps max-jumps max-seconds
-                   interleavings file-output progress solver-timeout solver-options))
+                   interleavings coverage file-output progress solver-timeout solver-options))
   (let ((exploration (apply #'make-exploration plan domain (alexandria:remove-from-plist
                                                             options :domain))))
     (explore-all exploration #'next-trace)
