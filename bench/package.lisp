@@ -10,6 +10,7 @@ same work without it.")
                     (#:desig #:discrepancy-finder.designators)
                     (#:plan #:discrepancy-finder.plan-language)
                     (#:ec #:discrepancy-finder.event-calculus)
+                    (#:symbolic #:discrepancy-finder.symbolic-execution)
                     (#:discrepancy #:discrepancy-finder.discrepancy)
                     (#:df #:discrepancy-finder))
   (:export

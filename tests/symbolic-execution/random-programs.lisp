@@ -27,12 +27,12 @@
     (when restart (push restart (world-restarts world)))
     world))
 
-(defun pick (list)
+(defun pick-one (list)
   (nth (random (length list)) list))
 
 (defun random-leaf (world)
   (if (and (world-variables world) (< (random 4) 3))
-      (pick (world-variables world))
+      (pick-one (world-variables world))
       (- (random 20) 5)))
 
 (defun random-body (world depth)
@@ -49,14 +49,14 @@
   "Return a random form whose value is an integer, with DEPTH levels at most."
   (if (or (<= depth 0) (zerop (random 8)))
       (random-leaf world)
-      (or (funcall (pick *random-makers*) world (1- depth))
+      (or (funcall (pick-one *random-makers*) world (1- depth))
           (random-leaf world))))
 
 (define-random-form random-arithmetic (world depth)
-  `(,(pick '(+ - * min max logand logxor)) ,(random-form world depth) ,(random-form world depth)))
+  `(,(pick-one '(+ - * min max logand logxor)) ,(random-form world depth) ,(random-form world depth)))
 
 (define-random-form random-quotient (world depth)
-  `(quotient ',(pick '(floor truncate mod rem))
+  `(quotient ',(pick-one '(floor truncate mod rem))
              ,(random-form world depth) ,(random-form world depth)))
 
 (defun quotient (function dividend divisor)
@@ -65,18 +65,18 @@ know of it."
   (values (funcall function dividend divisor)))
 
 (define-random-form random-test (world depth)
-  `(,(pick '(if if when-else)) ,(random-condition world depth)
+  `(,(pick-one '(if if when-else)) ,(random-truth world depth)
     ,(random-form world depth) ,(random-form world depth)))
 
 (defmacro when-else (test then else)
   `(cond (,test ,then) (t ,else)))
 
-(defun random-condition (world depth)
+(defun random-truth (world depth)
   (case (random 5)
-    (0 `(and ,(random-condition world (1- depth)) ,(random-condition world (- depth 2))))
+    (0 `(and ,(random-truth world (1- depth)) ,(random-truth world (- depth 2))))
     (1 `(or (evenp ,(random-form world depth)) (plusp ,(random-leaf world))))
     (2 `(not (zerop ,(random-form world depth))))
-    (t `(,(pick '(< > = /= eql)) ,(random-form world depth) ,(random-leaf world)))))
+    (t `(,(pick-one '(< > = /= eql)) ,(random-form world depth) ,(random-leaf world)))))
 
 (define-random-form random-case (world depth)
   `(case (mod ,(random-form world depth) 4)
@@ -85,7 +85,7 @@ know of it."
 
 (define-random-form random-let (world depth)
   (let ((name (fresh-name 'v)) (other (fresh-name 'w)))
-    `(,(pick '(let let*)) ((,name ,(random-form world depth)) (,other ,(random-leaf world)))
+    `(,(pick-one '(let let*)) ((,name ,(random-form world depth)) (,other ,(random-leaf world)))
       ,@(random-body (with-in-world (with-in-world world :variable name) :variable other) depth)
       (+ ,name ,other))))
 
@@ -96,9 +96,9 @@ know of it."
 (defvar *special-number* 1)
 
 (define-random-form random-setq (world depth)
-  (let ((variable (and (world-variables world) (pick (world-variables world)))))
+  (let ((variable (and (world-variables world) (pick-one (world-variables world)))))
     (and variable
-         `(,(pick '(setq incf decf setf)) ,variable ,(random-form world depth)))))
+         `(,(pick-one '(setq incf decf setf)) ,variable ,(random-form world depth)))))
 
 (define-random-form random-print (world depth)
   `(progn (princ ,(random-form world depth)) (princ " ") ,(random-leaf world)))
@@ -119,7 +119,7 @@ know of it."
        (tagbody
           ,again
           (incf ,n)
-          (when ,(random-condition (with-in-world world :variable n) depth) (go ,end))
+          (when ,(random-truth (with-in-world world :variable n) depth) (go ,end))
           (progn ,(random-form world depth))
           ,(if (zerop (random 2))
                `(when (< ,n 3) (go ,again))
@@ -133,7 +133,7 @@ know of it."
 
 (define-random-form random-return (world depth)
   (and (world-blocks world)
-       `(return-from ,(pick (world-blocks world)) ,(random-form world depth))))
+       `(return-from ,(pick-one (world-blocks world)) ,(random-form world depth))))
 
 (define-random-form random-catch (world depth)
   (let ((tag (fresh-name 'tag)))
@@ -141,8 +141,8 @@ know of it."
 
 (define-random-form random-throw (world depth)
   (and (world-catches world)
-       `(if ,(random-condition world depth)
-            (throw ',(pick (world-catches world)) ,(random-form world depth))
+       `(if ,(random-truth world depth)
+            (throw ',(pick-one (world-catches world)) ,(random-form world depth))
             ,(random-leaf world))))
 
 (define-random-form random-protection (world depth)
@@ -151,21 +151,21 @@ know of it."
 (define-random-form random-function (world depth)
   (let* ((name (fresh-name 'f)) (x (fresh-name 'x)) (y (fresh-name 'y))
          (inner (with-in-world (with-in-world world :variable x) :variable y)))
-    `(,(pick '(flet labels)) ((,name (,x &optional (,y ,(random-form world 1)))
+    `(,(pick-one '(flet labels)) ((,name (,x &optional (,y ,(random-form world 1)))
                                ,@(random-body (with-in-world inner :block name) depth)))
       ,@(random-body (with-in-world world :function (cons name 1)) depth))))
 
 (define-random-form random-call (world depth)
-  (let ((function (and (world-functions world) (first (pick (world-functions world))))))
+  (let ((function (and (world-functions world) (first (pick-one (world-functions world))))))
     (and function
-         (pick (list `(,function ,(random-form world depth))
+         (pick-one (list `(,function ,(random-form world depth))
                      `(,function ,(random-form world depth) ,(random-leaf world))
                      `(funcall #',function ,(random-form world depth))
                      `(reduce #'+ (mapcar #',function (list 1 2 ,(random-leaf world)))))))))
 
 (define-random-form random-lambda (world depth)
   (let* ((x (fresh-name 'x)) (inner (with-in-world world :variable x)))
-    (pick (list `(funcall (lambda (,x) ,@(random-body inner depth)) ,(random-form world depth))
+    (pick-one (list `(funcall (lambda (,x) ,@(random-body inner depth)) ,(random-form world depth))
                 `(apply #'+ (mapcar (lambda (,x) ,@(random-body inner depth)) (list 1 2)))
                 `((lambda (&key (,x ,(random-form world 1))) ,@(random-body inner depth))
                   ,@(and (zerop (random 2))
@@ -180,13 +180,13 @@ know of it."
 (define-random-form random-values (world depth)
   (let ((a (fresh-name 'a)) (b (fresh-name 'b)))
     `(multiple-value-bind (,a ,b)
-         ,(pick (list `(values ,(random-form world depth) ,(random-form world depth))
+         ,(pick-one (list `(values ,(random-form world depth) ,(random-form world depth))
                       `(floor ,(random-form world depth) 3)))
        (setq ,a (+ ,a ,b))
        ,@(random-body (with-in-world (with-in-world world :variable a) :variable b) depth))))
 
 (define-random-form random-handler (world depth)
-  (pick (list `(handler-case ,(random-form world depth)
+  (pick-one (list `(handler-case ,(random-form world depth)
                  (division-by-zero () ,(random-form world depth)))
               `(handler-case (error "~a" ,(random-form world depth))
                  (error (e) (princ e) ,(random-leaf world)))
@@ -199,19 +199,19 @@ know of it."
 
 (define-random-form random-invocation (world depth)
   (and (world-restarts world)
-       `(if ,(random-condition world depth)
-            (invoke-restart ',(pick (world-restarts world)) ,(random-leaf world))
+       `(if ,(random-truth world depth)
+            (invoke-restart ',(pick-one (world-restarts world)) ,(random-leaf world))
             ,(random-leaf world))))
 
 (define-random-form random-macro (world depth)
   (let ((m (fresh-name 'm)) (s (fresh-name 's)) (v (fresh-name 'v)))
-    (pick (list `(macrolet ((,m (x) `(+ ,x ,x))) (,m ,(random-form world depth)))
+    (pick-one (list `(macrolet ((,m (x) `(+ ,x ,x))) (,m ,(random-form world depth)))
                 `(let ((,v (list ,(random-form world depth) 2)))
                    (symbol-macrolet ((,s (car ,v)))
                      ,@(random-body (with-in-world world :variable s) depth)
                      (reduce #'+ ,v)))))))
 
-(defun random-program (seed)
+(defun random-lisp-program (seed)
   "Return the random program with the number SEED."
   (let ((*random-state* (sb-ext:seed-random-state seed)) (*counter* 0))
     (let ((a (fresh-name 'a)))
@@ -223,9 +223,9 @@ know of it."
 
 (test random-programs-do-what-they-do-compiled
   (loop for seed from 1 to 300
-        do (let ((mismatch (program-mismatch (random-program seed))))
+        do (let ((mismatch (program-mismatch (random-lisp-program seed))))
              (is (null mismatch) "program ~d: ~a" seed mismatch))))
 
 (test random-programs-are-not-trivial
   (is (< 100 (loop for seed from 1 to 300
-                   count (< 60 (size-of (random-program seed)))))))
+                   count (< 60 (size-of (random-lisp-program seed)))))))
