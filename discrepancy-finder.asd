@@ -146,7 +146,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "outline") (:file "dated") (:file "outlining")
                              (:file "states") (:file "initial-states") (:file "resolve")
                              (:file "trajectories") (:file "numbers") (:file "turns")
-                             (:file "successors") (:file "progress")))
+                             (:file "successors") (:file "progress")
+                             (:file "footprints")))
                (:module "e-files"
                 :serial t
                 :components ((:file "conditions") (:file "tokens") (:file "expressions")
@@ -210,18 +211,19 @@ The environment variable CXX names another compiler than g++."))
 
 (asdf:defsystem "discrepancy-finder/symbolic-execution"
   :description "Plans on all inputs at once, along the paths that a theory allows."
-  :depends-on ("discrepancy-finder/event-calculus" "discrepancy-finder/plan-language" "alexandria"
-               (:require "sb-cltl2"))
+  :depends-on ("discrepancy-finder/event-calculus" "discrepancy-finder/plan-language"
+               "discrepancy-finder/json" "alexandria" (:require "sb-cltl2"))
   :pathname "src/symbolic-execution/"
   :serial t
   :components ((:file "package") (:file "conditions")
                (:module "actions"
                 :serial t
-                :components ((:file "action-theory") (:file "bindings") (:file "define-action")
+                :components ((:file "action-theory") (:file "bindings") (:file "clauses")
+                             (:file "checks") (:file "define-action") (:file "returned-values")
                              (:file "outcomes")))
                (:module "paths"
                 :serial t
-                :components ((:file "path") (:file "decisions") (:file "journal")))
+                :components ((:file "oracle") (:file "path") (:file "decisions") (:file "journal")))
                (:module "values"
                 :serial t
                 :components ((:file "symbolic-values") (:file "deciding")
@@ -231,7 +233,9 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "table") (:file "equality") (:file "arithmetic")
                              (:file "comparison") (:file "division") (:file "types")
-                             (:file "conses") (:file "fluent-operators")))
+                             (:file "conses") (:file "sequences") (:file "arrays")
+                             (:file "hash-tables") (:file "instances") (:file "symbols")
+                             (:file "choices") (:file "output") (:file "fluent-operators")))
                (:module "evaluator"
                 :serial t
                 :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
@@ -242,7 +246,13 @@ The environment variable CXX names another compiler than g++."))
                              (:file "generic-functions")))
                (:module "exploration"
                 :serial t
-                :components ((:file "perform") (:file "trace") (:file "exploration")))))
+                :components ((:file "perform") (:file "lisp-footprints")
+                             (:file "interleavings") (:file "races") (:file "trace")
+                             (:file "arguments") (:file "least-models")
+                             (:file "states-along") (:file "traces-of-paths") (:file "orders")
+                             (:file "runs") (:file "exploration") (:file "initial-states")
+                             (:file "next-trace")
+                             (:file "verification") (:file "trace-json")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -320,7 +330,10 @@ The environment variable CXX names another compiler than g++."))
                              (:file "random-programs")
                              (:file "exploration") (:file "parallel")
                              (:file "table") (:file "open-theories")
-                             (:file "plan-files")))
+                             (:file "lifted-programs") (:file "values") (:file "symbolic-values")
+                             (:file "lifted")
+                             (:file "define-action") (:file "interleavings")
+                             (:file "random-plans") (:file "plan-files")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")
@@ -343,4 +356,4 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "evaluator")
                (:file "household") (:file "clingo") (:file "bounded") (:file "progression")
-               (:file "benchmarks")))
+               (:file "exploration") (:file "benchmarks")))

@@ -129,4 +129,5 @@ by pair."
   (print-plan-benchmarks stream)
   (print-evaluator-benchmarks stream)
   (print-bounded-benchmarks stream)
-  (print-progression-benchmarks stream))
+  (print-progression-benchmarks stream)
+  (print-exploration-benchmarks stream))

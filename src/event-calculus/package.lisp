@@ -20,7 +20,8 @@ them and why, and what they say of a state after known events.")
    ;; formulas
    #:parse-formula #:formula-text
    ;; state constraints
-   #:define-state-constraint #:find-state-constraint #:state-constraint #:state-constraint-name
+   #:define-state-constraint #:parse-state-constraint #:find-state-constraint
+   #:state-constraint #:state-constraint-name
    #:state-constraint-formula #:state-constraint-documentation #:state-constraint-span
    #:state-constraint-theory #:theory-state-constraints #:state-constraint-p
    ;; grounding
@@ -51,8 +52,10 @@ them and why, and what they say of a state after known events.")
    #:state-predecessor #:state-happenings #:state-exact-p #:state-limits #:state-determined-p
    #:number-value #:state-numbers
    #:state-propositions #:state-in-model #:same-future-p #:ground-numeric-p
+   #:order-matters-p #:event-footprint #:formula-footprint
    ;; conditions
    #:event-calculus-error #:theory-error #:theory-error-theory #:theory-error-axiom
+   #:theory-error-reason
    #:theory-not-found #:state-constraint-not-found #:unknown-atom
    #:no-horizon #:no-horizon-theory #:no-horizon-horizon
    #:outside-horizon #:outside-horizon-time #:outside-horizon-horizon #:outside-horizon-event

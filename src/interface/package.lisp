@@ -29,7 +29,7 @@
   (:import-from #:discrepancy-finder.designators
                 #:malformed-designator #:unknown-designator-key)
   (:import-from #:discrepancy-finder.symbolic-execution
-                #:define-action #:region-of #:exploration #:exploration-traces
+                #:define-action #:region-of #:value-of #:truth-of #:exploration #:exploration-traces
                 #:exploration-complete-p #:exploration-paths #:exploration-gaps
                 #:trace-initial-state #:trace-steps #:trace-final-state #:execution-trace
                 #:plan-broke
@@ -57,7 +57,8 @@
   (:export
    ;; theories, domains, plans
    #:define-theory #:load-theory #:find-theory #:define-state-constraint
-   #:define-abstraction #:define-action #:region-of #:load-domain #:domain #:load-plan
+   #:define-abstraction #:define-action #:region-of #:value-of #:truth-of #:load-domain
+   #:domain #:load-plan
    ;; questions to theories
    #:load-e-theory #:save-e-theory #:write-e-theory
    #:make-reasoner #:close-reasoner #:with-reasoner #:extend-horizon

@@ -17,6 +17,11 @@ if that fails, DESIGNATOR-NOT-UNDERSTOOD if EXECUTIVE cannot interpret DESIGNATO
     (declare (ignore executive position))
     (generic-perform designator)))
 
+(defgeneric gives-way-p (executive)
+  (:documentation "Return true if a task lets others have their turns before and after each PERFORM.
+One that performs in a task of its own is a turn in any case.")
+  (:method (executive) (declare (ignore executive)) t))
+
 (defgeneric call-plan-function (executive name arguments)
   (:documentation "Call the plan named NAME with the list ARGUMENTS, for EXECUTIVE.")
   (:method (executive name arguments)
@@ -116,7 +121,7 @@ NIL instead; if it does not hold afterwards, fail."
 where in the source this is, is filled in by the compiler for plans that were loaded with LOAD-PLAN.
 Signals a PLAN-FAILURE if that fails, NOT-IN-TOP-LEVEL outside of a top-level."
   (need-task `(perform ,designator))
-  (yield)
+  (when (gives-way-p *executive*) (yield))
   (multiple-value-prog1
       (call-in-task (lambda () (format nil "perform ~a" designator))
                     '(goal (perform ?designator))
@@ -125,7 +130,11 @@ Signals a PLAN-FAILURE if that fails, NOT-IN-TOP-LEVEL outside of a top-level."
                                       (lambda ()
                                         (perform-with *executive* designator position))))
                     :parameters (lambda () (list designator)))
-    (yield)))
+    (when (gives-way-p *executive*) (yield))))
+
+(defun perform-task-p (task)
+  "Return true if TASK is that of a PERFORM."
+  (equal (node-head (task-node task)) '(goal (perform ?designator))))
 
 (define-compiler-macro perform (&whole form designator &optional position)
   (let ((found (and (null position) (source:form-position form))))

@@ -97,6 +97,9 @@ perform.")
    #:perform #:perform-with #:generic-perform #:plan-known-p #:*control-functions*
     #:call-plan-function
    #:call-with-executive #:with-executive #:choose-strand
+   #:begin-turn #:ready-strands #:gives-way-p
+   #:strand-number #:strand-task #:strand-evaporating-p #:task-parent #:task-strand #:branch-code
+   #:perform-task-p #:all-needed-p
    #:leave-plan #:call-on-main #:current-handlers #:with-handlers
    #:try-reference-designator #:designator-reference-failure
    #:designator-reference-failure-result #:designator-goal-parsing-failure

@@ -21,6 +21,26 @@
                                            (list operator number) :code form)
                                 function))))
 
+(defun branch-code (task)
+  "Return the form that TASK, a branch of a parallel form, evaluates, and true; or NIL if it is
+none."
+  (let ((name (task-name task)))
+    (and (consp name) (equal (second name) "branch")
+         (values (node-code (task-node task)) t))))
+
+(defun all-needed-p (strand)
+  "Return true if STRAND goes on only because all branches that it has started have ended: those of
+a PAR, with success."
+  (let ((children (and (strand-task strand) (task-children (strand-task strand)))))
+    (every (lambda (child)
+             (or (not (nth-value 1 (branch-code child)))
+                 (and (eq (first (task-name child)) 'par) (task-done-p child))))
+           children)))
+
+(defun strand-evaporating-p (strand)
+  "Return true if STRAND is going to leave a task that was asked to evaporate, when it has its turn."
+  (and (strand-task strand) (evaporating-task strand) t))
+
 (defun call-with-branches (operator forms functions over-p conclude)
   "Start the branches and wait until OVER-P, a function of the tasks, is true.  Return what
 CONCLUDE, a function of the tasks, does.  Left in any other way, branches that run evaporate."

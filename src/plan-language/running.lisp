@@ -199,8 +199,8 @@ this and the list of the arguments."
       (decf (scheduler-suspensions scheduler)))
     (setf (task-children task) '())
     (set-status task status)
-    (dolist (joiner (shiftf (task-joiners task) '()))
-      (wake joiner))
+    (loop for (strand . predicate) in (shiftf (task-joiners task) '())
+          do (when (funcall (the function predicate)) (wake strand)))
     status))
 
 (defun abandon-task (task status)
@@ -220,8 +220,8 @@ their turns; the parent of TASK will wait for that."
   (let ((strand (current-strand)))
     (loop until (funcall (the function predicate))
           do (dolist (task tasks)
-               (unless (task-dead-p task)
-                 (pushnew strand (task-joiners task))))
+               (unless (or (task-dead-p task) (find predicate (task-joiners task) :key #'cdr))
+                 (push (cons strand predicate) (task-joiners task))))
              (block-strand (lambda ()
                              (format nil "the end of ~{~a~^, ~}"
                                      (mapcar #'task-text
@@ -260,7 +260,9 @@ their turns; the parent of TASK will wait for that."
                       (setf (strand-catching strand) t)
                       (run-task task function))
                  (setf (strand-catching strand) nil))))))))
-    (end-strand strand)))
+    ;; Who is next is the executive's business.
+    (progv *task-variables* task-values
+      (end-strand strand))))
 
 (defun strand-debugger-hook (strand)
   "Return a function for *INVOKE-DEBUGGER-HOOK* on the thread of a worker.  What is not the plan's

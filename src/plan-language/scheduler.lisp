@@ -86,6 +86,14 @@ in which they became ready, gets the baton.  An executive that explores all orde
         (random count (scheduler-random scheduler))
         0)))
 
+(defgeneric begin-turn (executive strand)
+  (:documentation "Called when STRAND, a ready one, was chosen to get the baton.")
+  (:method (executive strand) (declare (ignore executive strand))))
+
+(defun ready-strands (scheduler)
+  "Return the list of the strands of SCHEDULER that are ready, in the order in which they became so."
+  (queue-head (scheduler-ready scheduler)))
+
 (defun make-ready (strand)
   (setf (strand-state strand) :ready)
   (enqueue strand (scheduler-ready (strand-scheduler strand))))
@@ -126,11 +134,13 @@ in which they became ready, gets the baton.  An executive that explores all orde
 (defun pick-ready (scheduler)
   "Remove the strand that goes on next from the ready ones and return it."
   (let* ((ready (scheduler-ready scheduler))
-         (strands (queue-head ready)))
-    (dequeue ready (if (rest strands)
+         (strands (queue-head ready))
+         (position (if (rest strands)
                        ;; Nobody chooses for a plan that is being left.
                        (or (choose-strand *executive* scheduler (length strands)) 0)
-                       0))))
+                       0)))
+    (begin-turn *executive* (nth position strands))
+    (dequeue ready position)))
 
 (defun next-strand (scheduler)
   "Return the strand that goes on next.  In a deadlock, or when too many strands are at work at the

@@ -116,7 +116,7 @@ Called wherever a strand gets the baton."
         (dolist (handler (task-suspension-handlers task))
           (funcall (the function handler)))))
     (dolist (joiner (shiftf (task-joiners suspended) '()))
-      (wake joiner))
+      (wake (car joiner)))
     (await-turn strand "being woken up")
     (unless (suspended-task (strand-task strand))
       (dolist (task tasks)

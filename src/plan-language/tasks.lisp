@@ -127,6 +127,16 @@ something again and again, CATCHING while it can be left."
     (format stream "~d ~(~a~)~@[ for ~a~]" (strand-number strand) (strand-state strand)
             (strand-waiting strand))))
 
+(setf (documentation 'strand-number 'function)
+      "Return the number of a strand: 0 for that of the top-level itself, the others in the order in
+which they were started."
+      (documentation 'strand-task 'function)
+      "Return the innermost task that runs on a strand."
+      (documentation 'task-parent 'function)
+      "Return the task that has started a task, or NIL."
+      (documentation 'task-strand 'function)
+      "Return the strand that a task runs on, or NIL if it has not begun.")
+
 ;;; Which plan this is
 
 (defun current-plan-name ()

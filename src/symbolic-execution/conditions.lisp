@@ -62,6 +62,27 @@ know."))
   (:documentation "Signaled when an action binding cannot say what a designator means in its
 theory."))
 
+(defmethod source:self-explaining-p ((condition action-problem))
+  (and (action-problem-position condition) t))
+
+(define-condition invalid-trace (symbolic-execution-error)
+  ((reason :initarg :reason :reader invalid-trace-reason
+           :documentation "What is wrong, as a string."))
+  (:report (lambda (condition stream)
+             (format stream "This is no trace as JSON: ~a." (invalid-trace-reason condition))))
+  (:documentation "Signaled when a JSON text is no trace, or none that its theory allows, and when a
+trace cannot be written as JSON."))
+
+(define-condition file-output-refused (symbolic-execution-error)
+  ((file :initarg :file :reader file-output-refused-file :documentation "The file's name.")
+   (plan :initarg :plan :reader file-output-refused-plan :documentation "The plan's name."))
+  (:report (lambda (condition stream)
+             (format stream "The plan ~(~a~) opens the file ~a for output; on each path it would ~
+                             do so again, and that cannot be undone (:file-output t allows it)."
+                     (file-output-refused-plan condition) (file-output-refused-file condition))))
+  (:documentation "Signaled when a plan opens a file for output under symbolic execution, unless
+:FILE-OUTPUT allows it."))
+
 (define-condition domain-not-found (symbolic-execution-error)
   ((name :initarg :name :reader domain-not-found-name :documentation "The name in question."))
   (:report (lambda (condition stream)

@@ -5,11 +5,14 @@
                     (#:ec #:discrepancy-finder.event-calculus)
                     (#:plan #:discrepancy-finder.plan-language)
                     (#:source #:discrepancy-finder.source)
+                    (#:desig #:discrepancy-finder.designators)
+                    (#:json #:discrepancy-finder.json)
                     (#:foreign #:discrepancy-finder.foreign))
   (:export
    ;; action theories: what designators mean in a theory
    #:action-theory #:action-theory-name #:action-theory-theory #:action-theory-ground
    #:action-theory-actions #:define-action #:register-action #:region-of-pose #:region-of
+   #:value-of #:truth-of
    #:action-binding #:find-action-binding #:find-action-theory #:register-action-theory
    #:all-action-theories
    #:entered-p #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition
@@ -18,12 +21,19 @@
    #:exploration-paths #:exploration-checks #:exploration-seconds #:exploration-complete-p
    #:exploration-gaps #:exploration-dead-ends #:exploration-consistent-p #:exploration-plan
    #:exploration-domain
-   #:exploration-constraint #:close-exploration
+   #:exploration-constraint #:close-exploration #:exploration-statistics #:exploration-pending
+   #:exploration-order #:exploration-seed #:stop-exploring
    ;; traces
    #:trace-initial-state #:trace-steps #:trace-states #:trace-final-state #:execution-trace
    #:trace-plan #:trace-arguments #:trace-text #:step-text #:states-along #:outcome-transition
    #:make-trace-step #:make-execution-trace
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
+   #:trace= #:trace-decisions #:trace-ending #:trace-output #:trace-decision #:taken-text
+   #:taken-choice #:taken-time #:trace-to-json #:trace-from-json
+   ;; verification
+   #:verify-plan #:verification #:verification-verdict #:verification-property
+   #:verification-counterexample #:verification-problem #:verification-bounds
+   #:verification-exploration
    ;; the evaluator
    #:evaluate
    ;; symbolic values
@@ -33,7 +43,8 @@
    #:*number-limit* #:function-kind #:lifted-function #:make-symbolic-argument
    ;; conditions
    #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
-   #:action-problem #:domain-not-found
+   #:action-problem #:domain-not-found #:invalid-trace #:invalid-trace-reason
+   #:file-output-refused #:file-output-refused-file #:file-output-refused-plan
    #:unknown-argument-type #:unknown-argument-type-parameter #:unknown-argument-type-type
    #:unknown-argument-type-sorts
    #:plan-broke #:plan-broke-plan #:plan-broke-error #:call-plan))

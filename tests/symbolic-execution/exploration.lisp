@@ -3,6 +3,9 @@
 (def-suite exploration :in all)
 (in-suite exploration)
 
+(defvar *runs* 0
+  "Counts calls of a compiled function, which are not undone.")
+
 (defclass lamp-domain (symbolic:action-theory) ())
 
 (defparameter *lamp-theory* "
@@ -112,7 +115,7 @@
   (let ((exploration (explore-text "
 (def-top-level-cram-function lamp-plan (?flag)
   (let ((seen (list ?flag)))
-    (symbol-name (first seen))
+    (sxhash (first seen))
     (perform (a motion (type toggling) (lamp a)))))"
                                    :constraint 'lamp-a-lit :arguments '((?flag boolean)))))
     (is (equal '((t) (nil))
@@ -254,9 +257,6 @@
     (is (= 2 (length (symbolic:exploration-traces exploration))))
     (is (= 0 *counter*))))
 
-(defvar *runs* 0
-  "Counts calls of a compiled function, which are not undone.")
-
 (defun count-a-run ()
   (incf *runs*))
 
@@ -310,9 +310,9 @@
   (perform (a motion (type singing))))" :constraint 'anything))
   (signals-with (symbolic:unsupported-form "LAMP-PLAN" "type for each")
     (explore-text "(def-top-level-cram-function lamp-plan (x) x)" :constraint 'anything))
-  (signals-with (symbolic:unsupported-form "only parameters of type boolean")
+  (signals-with (symbolic:unknown-argument-type "parameter x" "tuple" "lamp")
     (explore-text "(def-top-level-cram-function lamp-plan (x) x)" :constraint 'anything
-                  :arguments '((x integer)))))
+                  :arguments '((x tuple)))))
 
 (test example-1-has-one-trace
   (let* ((exploration (df:explore-plan 'discrepancy-finder-user::move-the-box :domain :two-regions))

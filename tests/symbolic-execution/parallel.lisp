@@ -28,17 +28,17 @@
     (is (equal '((:a :b :b)) (remove-duplicates (only-successes exploration) :test #'equal)))))
 
 (test all-orders-of-parallel-branches-on-request
-  (flet ((orders (schedules)
+  (flet ((orders (interleavings)
            (sort (remove-duplicates
                   (only-successes (explore-text "
 (def-top-level-cram-function lamp-plan ()
   (par (perform (a motion (type toggling) (lamp a)))
        (perform (a motion (type toggling) (lamp b)))))"
-                                                :constraint 'anything :schedules schedules))
+                                                :constraint 'anything :interleavings interleavings))
                   :test #'equal)
                  #'string< :key #'first)))
-    (is (equal '((:a :b)) (orders :one)))
-    (is (equal '((:a :b) (:b :a)) (orders :all)))))
+    (is (equal '((:a :b)) (orders nil)))
+    (is (equal '((:a :b) (:b :a)) (orders t)))))
 
 (test a-failing-branch-ends-the-others
   "The branch that waits never goes on, whichever way the path takes."
@@ -151,7 +151,7 @@
   (with-tags
     (par (:tag a (dotimes (i 2) (sleep 1)))
          (with-task-suspended (a)
-           (par (sleep 1) (sleep 2))))))" :constraint 'anything :schedules :all))))
+           (par (sleep 1) (sleep 2))))))" :constraint 'anything :interleavings t))))
 
 (test writes-of-parallel-branches-are-undone
   "Bindings in branches end in another order than they began."

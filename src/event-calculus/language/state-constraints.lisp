@@ -43,7 +43,7 @@
 
 (defun parse-state-constraint (theory definition)
   "Return the state constraint of THEORY written as DEFINITION: (name (?time) [documentation]
-formula)."
+formula).  Signals THEORY-ERROR."
   (destructuring-bind (name &optional variables &rest body) definition
     (unless (and name (symbolp name))
       (theory-problem theory nil nil "~a cannot be the name of a state constraint"

@@ -12,7 +12,10 @@
    (ground :reader action-theory-ground :type ec:ground-theory
            :documentation "The same, ground.")
    (actions :initarg :actions :initform '() :accessor action-theory-actions
-            :documentation "List of action bindings, the youngest first."))
+            :documentation "List of action bindings, the youngest first.")
+   (formulas :initform (make-hash-table :test 'equal :synchronized t)
+             :reader action-theory-formulas
+             :documentation "The ground formula of each state formula that was asked for."))
   (:documentation "A theory and what designators mean in it."))
 
 (defmethod initialize-instance :after ((domain action-theory) &key theory)
@@ -22,6 +25,18 @@
   (print-unreadable-object (domain stream :type t)
     (format stream "~a: ~d action~:p" (ec:name-text (action-theory-name domain))
             (length (action-theory-actions domain)))))
+
+(defun ground-state-formula (domain formula blame)
+  "Return FORMULA, T, NIL or a state formula as it is written, as a ground formula of the theory of
+DOMAIN.  BLAME is a function that returns the text that names it in errors.  Signals THEORY-ERROR."
+  (if (typep formula 'boolean)
+      formula
+      (let ((known (action-theory-formulas domain)))
+        (or (gethash formula known)
+            (setf (gethash (copy-tree formula) known)
+                  (ec:ground-formula (action-theory-ground domain)
+                                     (ec:parse-formula formula (action-theory-theory domain)
+                                                       :blame (funcall blame))))))))
 
 (defgeneric region-of-pose (action-theory pose)
   (:documentation "Return the element of a sort of ACTION-THEORY (a keyword) that stands for the

@@ -1,32 +1,56 @@
 ;;;; Action bindings: what the designators of one kind mean in a theory.
 ;;;;
 ;;;; A binding says which designators it is for, which event happens when the action succeeds, what
-;;;; that requires, and which failures it may end in.  Entry points: REGISTER-ACTION,
-;;;; FIND-ACTION-BINDING.
+;;;; that requires, and which failures it may end in.  DEFINE-ACTION writes one.  Entry points:
+;;;; REGISTER-ACTION, FIND-ACTION-BINDING.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
+(defstruct (mention (:type list) (:copier nil))
+  "What a clause of a binding mentions of the theory: KIND is :EVENT, :FORMULA, :FAILURE or
+:ELEMENT, CLAUSE the clause as it was written, TEMPLATE an event, a formula, a failure class with
+its initargs, or a fluent and a variable.  A term that is computed is (:computed form) in it.
+POSITION is the clause's."
+  (kind nil :type keyword :read-only t)
+  (clause nil :read-only t)
+  (template nil :read-only t)
+  (position nil :read-only t))
+
 (defstruct (action-binding (:copier nil))
-  "Designators of CLASS (:motion or :action) and TYPE, the events (name argument*) and failure
-classes that DESCRIBE-OUTCOMES, a function of an action theory and a designator, may mention."
+  "Designators of CLASS (:motion or :action) and TYPE.  OUTCOMES are the names of the outcomes,
+:SUCCESS first, MENTIONS what is to be checked by the theory.  DESCRIBE-OUTCOMES is a function of
+an action theory and a designator.  RESULT is the lambda expression of the value of perform, see
+RESULT-FORM, PROPERTIES the keys of its further arguments."
   (class nil :type keyword :read-only t)
   (type nil :type keyword :read-only t)
-  (events '() :type list :read-only t)
-  (failures '() :type list :read-only t)
+  (outcomes '(:success) :type list :read-only t)
+  (mentions '() :type list :read-only t)
+  (position nil :read-only t)
+  (result nil :type list :read-only t)
+  (properties '() :type list :read-only t)
   (describe-outcomes #'identity :type function :read-only t))
 
 (defmethod print-object ((binding action-binding) stream)
   (print-unreadable-object (binding stream :type t)
-    (format stream "~(~a ~a~)" (action-binding-class binding) (action-binding-type binding))))
+    (write-string (binding-text binding) stream)))
+
+(defun binding-text (binding)
+  "Return class and type of the designators of BINDING as words."
+  (format nil "~(~a~) ~a" (action-binding-class binding)
+          (ec:name-text (action-binding-type binding))))
 
 (defstruct (outcome (:copier nil))
   "One way in which an action can end: NAME is :SUCCESS or a failure class, EVENT the ground event
-that happens (a list) or NIL, CONDITION the ground formula under which it is possible, VALUE what
-perform returns."
+that happens (a list) or NIL, CONDITION the ground formula under which it is possible.  INITARGS
+are those of the failure; RESULT is NIL or a function of the state after the action that returns
+the value of perform.  NUMBER is its place among the outcomes of BINDING."
   (name nil :type symbol :read-only t)
   (event nil :type list :read-only t)
   (condition t :type (or boolean list) :read-only t)
-  (value nil :read-only t))
+  (initargs '() :type list :read-only t)
+  (result nil :type (or null function) :read-only t)
+  (binding nil :read-only t)
+  (number 0 :type (integer 0) :read-only t))
 
 (setf (documentation 'outcome-name 'function)
       "Return the name of an outcome: :SUCCESS or a failure class."
@@ -39,28 +63,6 @@ perform returns."
   (print-unreadable-object (outcome stream :type t)
     (format stream "~(~a~)~@[ ~a~]" (outcome-name outcome)
             (and (outcome-event outcome) (ec:atom-text (outcome-event outcome))))))
-
-(defun check-binding (domain binding)
-  "Signal ACTION-PROBLEM if BINDING mentions an event that the theory of DOMAIN does not have, or a
-failure that is none."
-  (flet ((problem (control &rest arguments)
-           (error 'action-problem :designator (format nil "The action binding ~(~a ~a~)"
-                                                      (action-binding-class binding)
-                                                      (action-binding-type binding))
-                                  :reason (apply #'format nil control arguments))))
-    (loop for (name . arguments) in (action-binding-events binding)
-          for declaration = (assoc (ec:name-keyword name)
-                                   (ec:theory-events (action-theory-theory domain)))
-          do (unless declaration
-               (problem "theory ~a has no event ~a"
-                        (ec:name-text (ec:theory-name (action-theory-theory domain)))
-                        (ec:name-text name)))
-             (unless (= (length arguments) (length (rest declaration)))
-               (problem "the event ~a takes ~d argument~:p, not ~d" (ec:name-text name)
-                        (length (rest declaration)) (length arguments))))
-    (dolist (failure (action-binding-failures binding))
-      (unless (subtypep failure 'plan:plan-failure)
-        (problem "~(~a~) is no plan failure" failure)))))
 
 (defun register-action (domain-name binding)
   "Make BINDING an action binding of the domain named DOMAIN-NAME, in place of an older one for the
@@ -80,7 +82,9 @@ same designators.  Signals DOMAIN-NOT-FOUND and ACTION-PROBLEM."
 designator."
   (unless (typep designator 'plan:designator)
     (error 'action-problem :designator designator :reason "it is no designator"))
-  (find-if (lambda (binding)
-             (and (eq (action-binding-class binding) (plan:designator-class-keyword designator))
-                  (eq (action-binding-type binding) (plan:desig-prop-value designator :type))))
-           (action-theory-actions domain)))
+  (let ((class (plan:designator-class-keyword designator))
+        (type (decided (plan:desig-prop-value designator :type) "the type of a designator")))
+    (find-if (lambda (binding)
+               (and (eq (action-binding-class binding) class)
+                    (eq (action-binding-type binding) type)))
+             (action-theory-actions domain))))

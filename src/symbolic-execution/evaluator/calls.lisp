@@ -2,19 +2,22 @@
 ;;;;
 ;;;; A CALLEE stands for a global function at all the places where it is called; it notices when the
 ;;;; function is defined again.  Plans are interpreted.  As long as nothing is symbolic the function
-;;;; itself is called, else the version of it that understands symbolic arguments, or it gets its
-;;;; arguments decided.  Calls with up to four arguments make no list of them.
+;;;; itself is called, if it changes nothing, else the version of it that understands symbolic
+;;;; arguments, or it gets its arguments decided.  Calls with up to four arguments make no list of them.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
 (defstruct (callee (:constructor make-callee (name definition)) (:copier nil))
   "NAME is the function's; SEEN the function that DEFINITION, SBCL's entry for the name, held when
-CODE, the function to be called for it, was found."
+CODE, the function to be called for it, was found.  KIND and VERSION are what FUNCTION-VERSIONS
+returns."
   (name nil :read-only t)
   (definition nil :type sb-kernel:fdefn :read-only t)
   (seen nil :type (or null function))
   (code #'identity :type function)
-  (interpreted-p nil :type boolean))
+  (interpreted-p nil :type boolean)
+  (kind :opaque :type keyword)
+  (version nil :type (or null function)))
 
 (declaim (sb-ext:freeze-type callee))
 
@@ -38,13 +41,17 @@ CODE, the function to be called for it, was found."
 (defun look-up-callee (callee)
   (let* ((name (callee-name callee))
          (function (if (fboundp name) (global-function name) (undefined-caller name))))
-    (setf (callee-code callee)
-          (cond ((interpreted-function-p function) (interpreted-function-code function))
-                ((typep function 'generic-function) (generic-function-code function name))
-                (t function))
-          ;; Such code knows itself what to do with symbolic values.
-          (callee-interpreted-p callee) (not (eq (callee-code callee) function))
-          (callee-seen callee) (sb-kernel:fdefn-fun (callee-definition callee)))
+    (multiple-value-bind (kind version always) (function-versions name)
+      (setf (callee-code callee)
+            (cond ((interpreted-function-p function) (interpreted-function-code function))
+                  ((typep function 'generic-function) (generic-function-code function name))
+                  ((and always version))
+                  (t function))
+            ;; Such code knows itself what to do with symbolic values.
+            (callee-interpreted-p callee) (not (eq (callee-code callee) function))
+            (callee-kind callee) kind
+            (callee-version callee) version
+            (callee-seen callee) (sb-kernel:fdefn-fun (callee-definition callee))))
     (callee-code callee)))
 
 (defun global-function (name)
@@ -67,14 +74,12 @@ CODE, the function to be called for it, was found."
 
 (defun call-among-symbols (callee site &rest arguments)
   "Call the function of CALLEE with ARGUMENTS while there are symbolic values."
-  (let ((function (callee-function callee))
-        (name (callee-name callee)))
-    (if (callee-interpreted-p callee)
-        (apply function arguments)
-        (ecase (function-kind name)
-          (:opaque (call-opaque function arguments (site-description site)))
-          ((:lifted :transparent)
-           (apply (the function (or (lifted-function name) function)) arguments))))))
+  (let ((function (callee-function callee)))
+    (cond ((callee-interpreted-p callee) (apply function arguments))
+          ((callee-version callee) (apply (the function (callee-version callee)) arguments))
+          ((eq (callee-kind callee) :opaque)
+           (call-opaque function arguments (site-description site)))
+          (t (apply function arguments)))))
 
 (defmacro with-argument-counts ((arguments code-list &key (maximum 4)) call general)
   "Evaluate CALL where CODE-LIST has at most MAXIMUM elements, with ARGUMENTS replaced in it by
@@ -131,11 +136,11 @@ forms that evaluate them in FRAME, and else GENERAL."
 (defun function-to-call (function)
   "Return what is to be called for FUNCTION, a function or a symbol."
   (cond ((interpreted-function-p function) (interpreted-function-code function))
-        ((and (functionp function) (not (symbolic-run-p))) function)
+        ((and (functionp function) (null *path*)) function)
         (t (designated-function function))))
 
 (defun designated-function (function)
-  (cond ((and (symbolp function) (not (symbolic-run-p)))
+  (cond ((and (symbolp function) (null *path*))
          (callee-function (find-callee function)))
         ((typep function '(or function symbol)) (code-of function))
         (t (error 'type-error :datum function :expected-type '(or function symbol)))))

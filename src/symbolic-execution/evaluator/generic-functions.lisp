@@ -101,10 +101,11 @@ number, asks for its class."
     (lambda (&rest arguments)
       (cond ((and *path* (interpreted-generic-p function))
              (call-generic function arguments (site-description site)))
-            ((not (symbolic-run-p)) (apply function arguments))
-            ((eq (function-kind name) :opaque)
-             (call-opaque function arguments (site-description site)))
-            (t (apply (the function (or (lifted-function name) function)) arguments))))))
+            ((null *path*) (apply function arguments))
+            (t (let ((version (lifted-function name)))
+                 (if version
+                     (apply (the function version) arguments)
+                     (call-opaque function arguments (site-description site)))))))))
 
 ;;; Functions of plan files that close over something
 

@@ -92,10 +92,9 @@
   (analyze-lambda (second form) (third form) (cdddr form) scope))
 
 (defun function-as-value (callee)
-  "Return the function of CALLEE for use as a value: on a path the one that knows symbolic values."
-  (let ((function (global-function (callee-name callee))))
-    (or (and *path* (lifted-function (callee-name callee)))
-        function)))
+  "Return the function of CALLEE for use as a value: Common Lisp's own, since compiled code may ask
+which it is.  Who calls it in a plan asks CODE-OF for the version that knows symbolic values."
+  (global-function (callee-name callee)))
 
 (defun analyze-local-functions (form scope recursive)
   (let ((definitions (second form)))

@@ -37,24 +37,90 @@ must be true for it."
     (multiple-value-bind (next conditions) (ec:progress state event)
       (values next (if (eq condition t) conditions (acons nil condition conditions))))))
 
+(defun same-description-p (one other)
+  "Return true if ONE and OTHER, designators or parts of their descriptions, have the same text for
+sure."
+  (cond ((eql one other) t)
+        ((consp one) (and (consp other)
+                          (same-description-p (car one) (car other))
+                          (same-description-p (cdr one) (cdr other))))
+        ((typep one 'plan:designator)
+         (and (eq (class-of one) (class-of other))
+              (eq (desig:quantifier one) (desig:quantifier other))
+              (same-description-p (desig:properties one) (desig:properties other))))
+        ((stringp one) (equal one other))))
+
+(defun designator-text (path designator)
+  "Return the text of DESIGNATOR, which PATH performs now."
+  (let* ((recorded (next-recorded path))
+         (known (and recorded (decision-designator recorded))))
+    (if (and known (same-description-p designator known))
+        (decision-description recorded)
+        (princ-to-string designator))))
+
+(defun recorded-step (path description)
+  "Return the outcome and the state after it if the next decision of PATH's prefix is for the step
+DESCRIPTION and still remembers them, else NIL."
+  (let ((recorded (next-recorded path)))
+    (when (and recorded (current-p path recorded))
+      (let ((value (decision-value recorded)))
+        (when (and (consp value) (outcome-p (car value))
+                   (string= description (decision-description recorded)))
+          (values (car value) (cdr value)))))))
+
+(defun decide-new-step (path designator description outcomes)
+  "Decide for one of OUTCOMES of DESIGNATOR and return it and the state after it."
+  (let ((alternatives (path-alternatives path)))
+    (destructuring-bind (outcome . next)
+        (decide path description (step-options path outcomes))
+      ;; For the runs that will repeat the decision.
+      (setf (decision-designator (first (path-decisions path))) designator)
+      (loop for (decision) in (ldiff (path-alternatives path) alternatives)
+            do (setf (decision-designator decision) designator))
+      (values outcome next))))
+
+(defun step-options (path outcomes)
+  "Return the options ((outcome . state) . proposition) of a step with OUTCOMES."
+  (let ((state (first (path-states path))))
+    (loop for outcome in outcomes
+          collect (multiple-value-bind (next conditions)
+                      (outcome-transition (path-domain path) state outcome)
+                    (cons (cons outcome next) (z3:conjunction (mapcar #'cdr conditions)))))))
+
+(defun decide-step (path designator position plan)
+  "Decide for an outcome of DESIGNATOR, which PLAN performs at POSITION, on PATH and return it and
+the state after it, and the text of DESIGNATOR."
+  (let ((description (designator-text path designator)))
+    (multiple-value-bind (recorded next) (recorded-step path description)
+      (if (and recorded (null (path-schedule path))
+               (null (outcome-result recorded))) ; it has no part of the other run
+          (progn (repeat-decision path (next-recorded path))
+                 (values recorded next description))
+          (let ((outcomes (action-outcomes (path-domain path) designator
+                                           :plan plan :position position)))
+            (note-outcomes path outcomes)
+            ;; Its arguments may have been decided meanwhile.
+            (multiple-value-bind (recorded next) (recorded-step path description)
+              (if recorded
+                  (let ((outcome (nth (decision-choice (next-recorded path)) outcomes)))
+                    (unless (and outcome (equal (outcome-event outcome) (outcome-event recorded)))
+                      (other-decision path (next-recorded path) description))
+                    (repeat-decision path (next-recorded path))
+                    (values outcome next description))
+                  (multiple-value-bind (outcome next)
+                      (decide-new-step path designator description outcomes)
+                    (values outcome next description)))))))))
+
 (defun take-step (path designator position plan)
   "Decide for an outcome of DESIGNATOR, which PLAN performs at POSITION, on PATH, add the step and
 return the outcome."
-  (let* ((state (first (path-states path)))
-         (description (princ-to-string designator))
-         (outcomes (action-outcomes (path-domain path) designator
-                                    :plan plan :position position))
-         (options (loop for outcome in outcomes
-                        collect (multiple-value-bind (next conditions)
-                                    (outcome-transition (path-domain path) state outcome)
-                                  (cons (cons outcome next)
-                                        (z3:conjunction (mapcar #'cdr conditions)))))))
-    (destructuring-bind (outcome . next) (decide path description options)
-      (push (make-trace-step :designator description :event (outcome-event outcome)
-                             :outcome (outcome-name outcome) :position position)
-            (path-steps path))
-      (push next (path-states path))
-      outcome)))
+  (multiple-value-bind (outcome next description) (decide-step path designator position plan)
+    (push (make-trace-step :designator description :event (outcome-event outcome)
+                           :outcome (outcome-name outcome) :position position)
+          (path-steps path))
+    (push (path-depth path) (path-step-depths path))
+    (push next (path-states path))
+    outcome))
 
 (defun entered-p (domain designator)
   "Return true if DESIGNATOR has no action binding in DOMAIN but a plan of its own: performing it
@@ -67,18 +133,13 @@ enters that plan."
         ((path-ending path) (plan:leave-plan path))
         ((entered-p (path-domain path) designator) (call-next-method))
         ((>= (length (path-steps path)) (path-max-steps path)) (abandon path :too-many-steps))
-        (t (let* ((plan (plan:current-plan-name))
+        (t (check-deadline path)
+           (let* ((plan (plan:current-plan-name))
                   (outcome (outside-the-plan (path) (take-step path designator position plan))))
              (if (eq (outcome-name outcome) :success)
-                 (outcome-value outcome)
-                 (plan:fail (outcome-name outcome)))))))
-
-(defmethod plan:choose-strand ((path path) scheduler count)
-  (if (eq (path-schedules path) :all)
-      (decide path "the task that has its turn"
-              (loop for number below count collect (cons number t))
-              :exhaustive t)
-      (call-next-method)))
+                 (outcome-value outcome (first (path-states path)))
+                 (apply #'plan:fail (outcome-name outcome) (outcome-initargs outcome)))))))
 
 (defmethod plan:call-plan-function ((path path) name arguments)
+  (note-entered-plan path name)
   (apply (global-function name) arguments))

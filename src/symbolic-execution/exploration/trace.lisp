@@ -1,21 +1,39 @@
 ;;;; Execution traces: what a plan does to the world, according to the theory.
 ;;;;
 ;;;; An EXECUTION-TRACE has a concrete initial state, the steps that the plan performs from it, and
-;;;; the states that follow by the theory.  It is made from a path on which a state constraint
-;;;; comes true, cut after the last timepoint at which it does; the path may go on to a failure, or
-;;;; to where the theory allows nothing.  The initial state is the least that the path allows, with
-;;;; false before true in the order of the fluents: a function of the path alone.  So are the
-;;;; states that follow, where the theory leaves a choice.
+;;;; the states that follow by the theory.  Traces are made in traces-of-paths.lisp.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
+(defstruct (trace-decision (:conc-name taken-) (:copier nil))
+  "What a plan decides on the way of a trace, but for the outcomes of its steps: the TEXT of the
+form with its source position, the text of the CHOICE, and TIME, the number of steps before."
+  (text "" :type string :read-only t)
+  (choice "" :type string :read-only t)
+  (time 0 :type (integer 0) :read-only t))
+
+(setf (documentation 'taken-text 'function)
+      "Return the text of a decision on a trace: a form of the plan with its source position."
+      (documentation 'taken-choice 'function)
+      "Return the text of what a decision on a trace is for, e.g. t."
+      (documentation 'taken-time 'function)
+      "Return the number of the steps of a trace before a decision.")
+
+(defmethod print-object ((decision trace-decision) stream)
+  (print-unreadable-object (decision stream :type t)
+    (format stream "~a -> ~a" (taken-text decision) (taken-choice decision))))
+
 (defstruct (execution-trace (:conc-name trace-) (:copier nil))
   "STATES begins with the initial state and has one element more than STEPS.  ARGUMENTS are the
-plan's."
+plan's.  ENDING is how the whole run ends: :FINISHED, a failure class, or a keyword for what cut it
+off.  OUTPUT is what the whole run has printed."
   (plan nil :type symbol :read-only t)
   (arguments '() :type list :read-only t)
   (steps '() :type list :read-only t)
-  (states '() :type cons :read-only t))
+  (states '() :type cons :read-only t)
+  (decisions '() :type list :read-only t)
+  (ending :finished :type symbol :read-only t)
+  (output "" :type string :read-only t))
 
 (setf (documentation 'make-execution-trace 'function)
       "Return a new execution trace."
@@ -26,7 +44,14 @@ plan's."
       (documentation 'trace-steps 'function)
       "Return the list of the steps of a trace."
       (documentation 'trace-states 'function)
-      "Return the list of the states of a trace, the initial one first.")
+      "Return the list of the states of a trace, the initial one first."
+      (documentation 'trace-decisions 'function)
+      "Return the list of the TRACE-DECISIONs of a trace, in order."
+      (documentation 'trace-ending 'function)
+      "Return how the run ends whose beginning a trace is: :FINISHED, a failure class, or what cut
+it off: :DEAD-END, :TOO-MANY-STEPS, :TOO-MANY-JUMPS, :OUT-OF-TIME, :ERROR."
+      (documentation 'trace-output 'function)
+      "Return what the run whose beginning a trace is has printed, a string.")
 
 (defun trace-initial-state (trace)
   "Return the discrete initial state of TRACE."
@@ -58,95 +83,16 @@ events and outcomes are."
             (mapcar #'ec:atom-text (ec:state-fluents (trace-initial-state trace)))
             (mapcar #'step-text (trace-steps trace)))))
 
-(defun least-values (solver propositions)
-  "Return the least list of truth values of PROPOSITIONS that the SOLVER allows, and add them to
-its assertions."
-  (loop for proposition in propositions
-        for value = (if (z3:term-p proposition)
-                        (not (eq (z3:check solver (list (z3:negation proposition))) :sat))
-                        proposition)
-        do (z3:solver-assert solver (if value proposition (z3:negation proposition)))
-        collect value))
+(defun trace-key (trace)
+  "Return an object that is EQUAL for two traces if and only if TRACE= is true of them."
+  (let ((initial (trace-initial-state trace)))
+    (list* (trace-plan trace) (trace-arguments trace)
+           (ec:state-fluents initial) (coerce (ec:state-numbers initial) 'list)
+           (loop for step in (trace-steps trace)
+                 collect (step-event step)
+                 collect (step-outcome step)))))
 
-(defun fix-numbers (solver numbers)
-  "Add to the assertions of SOLVER values for the terms among NUMBERS, one after the other: 0 where
-that is allowed, else what Z3 finds first."
-  (dolist (number numbers)
-    (when (z3:term-p number)
-      (let ((zero (z3:equals number 0)))
-        (if (eq (z3:check solver (list zero)) :sat)
-            (z3:solver-assert solver zero)
-            (let ((value (progn (z3:check solver) (z3:model-value solver number))))
-              (when (rationalp value)
-                (z3:solver-assert solver (z3:equals number value)))))))))
-
-(defun least-states (solver states)
-  "Return STATES, which follow each other, with truth values for their propositions: the least that
-SOLVER allows, the earlier state first."
-  (let ((concrete '()))
-    (dolist (state states)
-      (least-values solver (ec:state-propositions state))
-      (fix-numbers solver (coerce (ec:state-numbers state) 'list))
-      ;; Where the theory leaves nothing open the initial state has settled the rest.
-      (when (every #'ec:state-determined-p states)
-        (return)))
-    (z3:check solver)
-    (dolist (state states (nreverse concrete))
-      (push (ec:state-in-model state (lambda (term) (z3:model-value solver term))
-                               (first concrete))
-            concrete))))
-
-(defun make-path-solver (context ground)
-  "Return a solver for paths of the theory GROUND.  Its questions are many and small: Z3's engine
-for QF_UF, which keeps what it has learnt, is some ten times faster there than the one for QF_FD."
-  (z3:make-solver context :logic (if (ec:ground-numeric-p ground) nil "QF_UF")))
-
-(defun states-along (ground fluents steps)
-  "Return the concrete states of the theory GROUND along STEPS from the state in which just
-FLUENTS, a list of ground fluents, hold: the least ones, in the order of time and of the fluents,
-that the theory allows.  If it allows none return NIL and the number of the first step that it
-forbids, counted from 1, or 0 if it forbids the first state."
-  (z3:with-context (context)
-    (let* ((solver (make-path-solver context ground))
-           (state (ec:concrete-state ground
-                                     (lambda (atom) (and (member atom fluents :test #'equal) t))
-                                     :context context))
-           (states (list state)))
-      (flet ((allowed-p (conditions)
-               (loop for (nil . proposition) in conditions
-                     do (z3:solver-assert solver proposition))
-               (eq (z3:check solver) :sat)))
-        (unless (allowed-p (ec:initial-conditions state))
-          (return-from states-along (values '() 0)))
-        (loop for step in steps
-              for number from 1
-              do (multiple-value-bind (next conditions)
-                     (ec:progress (first states) (ec:event-number ground (step-event step)))
-                   (unless (allowed-p conditions)
-                     (return-from states-along (values '() number)))
-                   (push next states)))
-        (values (least-states solver (nreverse states)) nil)))))
-
-(defun instance-time (path formula span)
-  "Return the last timepoint at which the ground FORMULA of a state constraint can be true on PATH,
-and its proposition there; or NIL."
-  (let ((states (reverse (path-states path))))
-    (loop for time from (- (length states) span 1) downto 0
-          for proposition = (ec:holds formula (nthcdr time states))
-          when (possible-p path proposition)
-            return (values time proposition))))
-
-(defun path-trace (path formula span argument-propositions)
-  "Return the trace of the state constraint with the ground FORMULA over SPAN steps on PATH, or NIL
-if it comes true nowhere on it."
-  (multiple-value-bind (time proposition) (instance-time path formula span)
-    (when time
-      (let ((solver (path-solver path)) (length (+ time span)))
-        (z3:push-scope solver)
-        (z3:solver-assert solver proposition)
-        (let ((arguments (least-values solver argument-propositions))
-              (states (least-states solver (subseq (reverse (path-states path)) 0 (1+ length)))))
-          (z3:pop-scope solver)
-          (make-execution-trace
-           :plan (path-plan path) :arguments arguments :states states
-           :steps (subseq (reverse (path-steps path)) 0 length)))))))
+(defun trace= (trace other)
+  "Return true if two traces are of the same plan with the same arguments, from the same initial
+state, with the same events and outcomes."
+  (equal (trace-key trace) (trace-key other)))

@@ -93,22 +93,26 @@
 
 (define-transparent (rplaca) (cons any-value)
   (let ((cons (settled cons "a cons")))
-    (note-place (car cons))
+    (when (consp cons)
+      (note-place (car cons)))
     (rplaca cons any-value)))
 
 (define-transparent (rplacd) (cons any-value)
   (let ((cons (settled cons "a cons")))
-    (note-place (cdr cons))
+    (when (consp cons)
+      (note-place (cdr cons)))
     (rplacd cons any-value)))
 
 (define-transparent (sb-kernel:%rplaca) (cons any-value)
   (let ((cons (settled cons "a cons")))
-    (note-place (car cons))
+    (when (consp cons)
+      (note-place (car cons)))
     (setf (car cons) any-value)))
 
 (define-transparent (sb-kernel:%rplacd) (cons any-value)
   (let ((cons (settled cons "a cons")))
-    (note-place (cdr cons))
+    (when (consp cons)
+      (note-place (cdr cons)))
     (setf (cdr cons) any-value)))
 
 (define-transparent (nconc) (&rest any-lists)

@@ -30,11 +30,10 @@ of two to the even one."
 
 (defun remainder-term (term quotient divisor)
   "Return TERM - QUOTIENT * DIVISOR."
-  (let ((product (z3:product (list divisor quotient))))
-    (multiple-value-call #'z3:difference
-      (if (integer-term-p term)
-          (values term product)
-          (values term (z3:product (list divisor (z3:integer-to-real quotient))))))))
+  (z3:difference term
+                 (z3:product (list divisor (if (or (integer-term-p term) (integerp quotient))
+                                               quotient
+                                               (z3:integer-to-real quotient))))))
 
 (defun division-term (kind term divisor)
   "Return the term of TERM divided by DIVISOR, a positive number, in the way of the function KIND."

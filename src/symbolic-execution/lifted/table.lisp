@@ -16,16 +16,18 @@
 (in-package #:discrepancy-finder.symbolic-execution)
 
 (defvar *lifted-functions* (make-hash-table :test 'equal)
-  "A list (kind function) for each name of a lifted or transparent function: the function that
-stands for it, or NIL if that is the function itself.")
+  "A list (kind function always) for each name of a lifted or transparent function: the function
+that stands for it, or NIL if that is the function itself, and whether it must be called on every
+path, also while there is nothing symbolic.")
 
 (defvar *known-functions* (make-hash-table :test 'eq)
   "The function to be called for each function of Common Lisp that has a lifted version, and for
 each lifted version.")
 
-(defun register-lifted (name kind function)
-  "Let FUNCTION, or with NIL the function NAME itself, stand for NAME, which is of KIND."
-  (setf (gethash name *lifted-functions*) (list kind function))
+(defun register-lifted (name kind function &optional always)
+  "Let FUNCTION, or with NIL the function NAME itself, stand for NAME, which is of KIND; ALWAYS, on
+every path."
+  (setf (gethash name *lifted-functions*) (list kind function always))
   (let ((original (and (fboundp name) (fdefinition name))))
     (when original
       (setf (gethash original *known-functions*) (or function original))))
@@ -35,7 +37,8 @@ each lifted version.")
 
 (defmacro define-lifted (name lambda-list &body body)
   "Define the version with LAMBDA-LIST and BODY of the function NAME that understands symbolic
-arguments.  NAME may be a list of names, all for the same function."
+arguments.  NAME may be a list of names of functions that change something or call functions: their
+version is called on every path, also while there is nothing symbolic."
   `(register-version ',name :lifted
                      (sb-int:named-lambda ,(list 'lifted name) ,lambda-list ,@body)))
 
@@ -48,9 +51,10 @@ which those whose names do not begin with ANY are decided first."
                        ,@(or body (transparent-body name lambda-list)))))
 
 (defun register-version (names kind function)
-  (dolist (name (if (and (consp names) (not (eq (first names) 'setf))) names (list names)))
-    (when (or (consp name) (fboundp name))
-      (register-lifted name kind function))))
+  (let ((always (and (consp names) (not (eq (first names) 'setf)))))
+    (dolist (name (if always names (list names)))
+      (when (or (consp name) (fboundp name))
+        (register-lifted name kind function always)))))
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defun any-p (variable)
@@ -94,23 +98,34 @@ which those whose names do not begin with ANY are decided first."
                         `(,name ,@required)
                         `(funcall #',name ,@required)))))))))
 
+(defun function-versions (name)
+  "Return the kind of the global function NAME, a symbol or (setf symbol), :LIFTED, :TRANSPARENT or
+:OPAQUE; the function that may be given symbolic arguments in its place, or NIL if it is itself or
+there is none; and true if that must be called on every path, also while there is nothing symbolic."
+  (let ((entry (gethash name *lifted-functions*)))
+    (if entry
+        (values-list entry)
+        (definition-version name))))
+
 (defun lifted-function (name)
   "Return the function that understands symbolic arguments for the global function NAME, a symbol
 or (setf symbol), or NIL if it is the function itself or there is none."
-  (second (gethash name *lifted-functions*)))
+  (nth-value 1 (function-versions name)))
 
 (defun function-kind (name)
   "Return :LIFTED, :TRANSPARENT or :OPAQUE for the global function NAME, a symbol or (setf symbol):
 may it be given symbolic arguments?"
-  (cond ((first (gethash name *lifted-functions*)))
-        ((structure-function-p name) :transparent)
-        (t :opaque)))
+  (values (function-versions name)))
 
-(defun structure-function-p (name)
-  "Return true if NAME is a reader of structures whose slot may hold a symbolic value."
-  (and (symbolp name)
-       (consp (sb-int:info :function :source-transform name))
-       t))
+(defun definition-version (name)
+  "Return what FUNCTION-VERSIONS does for NAME, which is not in the table, by what it is defined as:
+functions of structures and accessors of classes are transparent."
+  (let ((structure-version (structure-version name))
+        (function (and (fboundp name) (fdefinition name))))
+    (cond (structure-version (values :transparent structure-version (consp name)))
+          ((and (typep function 'standard-generic-function) (accessor-p function))
+           (values :transparent (accessor-version function) (consp name)))
+          (t (values :opaque nil nil)))))
 
 (defun call-opaque (function arguments description)
   "Call FUNCTION, which may be compiled, with the list ARGUMENTS, in which everything symbolic is
@@ -120,16 +135,36 @@ decided first, and return its values."
              (mapcar (lambda (argument) (decided argument description)) arguments)
              arguments)))
 
+(defvar *named-versions* (make-hash-table :test 'eq :weakness :key :synchronized t)
+  "The version, or NIL, of functions that are not in the table.")
+
+(defun known-version (function)
+  "Return the function to be called for FUNCTION, an object, if that may be given symbolic values,
+or NIL."
+  (cond ((typep function 'interpreted-function) (interpreted-function-code function))
+        ((gethash function *known-functions*))
+        ((typep function 'generic-function)
+         (generic-function-code function (sb-mop:generic-function-name function)))
+        (t (multiple-value-bind (version known) (gethash function *named-versions*)
+             (if known
+                 version
+                 (setf (gethash function *named-versions*) (named-version function)))))))
+
+(defun named-version (function)
+  "Return the version of FUNCTION, not in the table, if it has one because of its definition."
+  (let ((name (sb-kernel:%fun-name function)))
+    (and (typep name '(or symbol (cons (eql setf))))
+         (fboundp name)
+         (eq (fdefinition name) function)
+         (nth-value 1 (definition-version name)))))
+
 (defun code-of (function)
   "Return the function to be called for FUNCTION, an object or a name: one that may be given
 symbolic values."
   (typecase function
-    (interpreted-function (interpreted-function-code function))
-    (symbol (let ((kind (function-kind function)))
-              (if (eq kind :opaque)
-                  (code-of (global-function function))
-                  (or (lifted-function function) (fdefinition function)))))
-    (function (cond ((gethash function *known-functions*))
+    (symbol (let ((version (lifted-function function)))
+              (or version (code-of (global-function function)))))
+    (function (cond ((known-version function))
                     ((not *path*) function)
                     (t (lambda (&rest arguments)
                          (call-opaque function arguments (function-description function))))))

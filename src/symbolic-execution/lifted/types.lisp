@@ -51,12 +51,15 @@
         ((consp bound) (multiple-value-call exclusive (same-sort (rational (first bound)) term)))
         (t (multiple-value-call inclusive (same-sort (rational bound) term)))))
 
+(defun lifted-typep (value type)
+  "Return whether VALUE is of TYPE, which may be symbolic."
+  (if (symbolic-value-p value)
+      (type-answer value (lambda (object) (typep object type)) type "an argument of typep")
+      (typep value type)))
+
 (define-lifted typep (value type &optional environment)
   (declare (ignore environment))
-  (let ((type (settled type "a type")))
-    (if (symbolic-value-p value)
-        (type-answer value (lambda (object) (typep object type)) type "an argument of typep")
-        (typep value type))))
+  (lifted-typep value (settled type "a type")))
 
 (macrolet ((define (&rest predicates)
              `(progn

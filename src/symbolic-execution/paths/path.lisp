@@ -1,44 +1,57 @@
 ;;;; Paths: one way through a plan, as a list of decisions.
 ;;;;
-;;;; A PATH is the executive of one symbolic run.  The path's solver holds what must be true of the
-;;;; initial state for the run to go this way.  Abandoning a path leaves the plan with all its
-;;;; tasks; no handler of the plan sees it.
+;;;; A PATH is the executive of one symbolic run.  The solver of its oracle holds what must be true
+;;;; of the initial state for the run to go this way.  Abandoning a path leaves the plan with all
+;;;; its tasks; no handler of the plan sees it.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
-(defstruct (decision (:constructor make-decision (choice description)) (:copier nil))
-  "CHOICE is the number of the option taken, DESCRIPTION says of what."
-  (choice 0 :type (integer 0) :read-only t)
-  (description "" :type string :read-only t))
-
 (defstruct (path (:copier nil))
-  "A symbolic run.  Lists are in reverse order but for PREFIX, what is still to be repeated.
-MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries.
-SYMBOLIC-P is true once the run has met a symbolic value, LIMITS are sentences on what it
-leaves out; with SCHEDULES :ALL the order in which
-parallel tasks take their turns is decided, too; HANDLERS are the condition handlers outside
-of the plan.  ENDING says why the run is over, :ERROR if by the condition FATAL."
+  "A symbolic run.  Lists are in reverse order but for PREFIX, the decisions still to be repeated.
+ALTERNATIVES are such lists of decisions, the deepest first, for runs to come.
+MAX-STEPS bounds the performs, JUMPS-LEFT the iterations of loops and retries, DEADLINE, in seconds
+of the monotonic clock, the time.  SYMBOLIC-P is true once the run has symbolic values; LIMITS are
+sentences on what it leaves out.  INTERLEAVINGS says which orders of parallel tasks are explored,
+SCHEDULE notes those of this run; HANDLERS are the condition handlers outside of the plan.
+STEP-DEPTHS has for each step the number of decisions up to it, REPEATED is the number of those that
+repeat another run.  ENDING says why the run is over, :ERROR if by the condition FATAL; with
+KEEP-ERRORS an error of the plan is an ending like others."
   (plan nil :read-only t)
   (domain nil :type action-theory :read-only t)
-  (solver nil :read-only t)
+  (oracle nil :type oracle :read-only t)
   (prefix '() :type list)
+  (repeated 0 :type fixnum :read-only t)
   (decisions '() :type list)
+  (depth 0 :type fixnum)
   (alternatives '() :type list)
   (states '() :type list)
   (steps '() :type list)
+  (step-depths '() :type list)
   (journal '() :type list)
   (writes 0 :type fixnum)
   (max-steps 1000 :type (integer 0) :read-only t)
   (jumps-left 0 :type fixnum)
+  (deadline nil :type (or null double-float) :read-only t)
   (symbolic-p nil :type boolean)
   (limits '() :type list)
-  (schedules :one :type (member :one :all) :read-only t)
+  (interleavings nil :type (member nil t :all) :read-only t)
+  (schedule nil :read-only t)
+  (file-output nil :type boolean :read-only t)
+  (keep-errors nil :type boolean :read-only t)
   (handlers nil)
   (ending nil)
   (fatal nil))
 
 (defvar *path* nil
   "The path of the symbolic run in progress.")
+
+(defun path-solver (path)
+  "Return the solver that holds what is true on PATH."
+  (oracle-solver (path-oracle path)))
+
+(defun path-context (path)
+  "Return the Z3 context in which the terms on PATH live."
+  (oracle-context (path-oracle path)))
 
 (defun abandon (path ending)
   "Leave the run of PATH; ENDING, a keyword, says why."
@@ -71,7 +84,14 @@ for handlers from outside, and doom the run unless they return."
 complete then."
   (pushnew text (path-limits path) :test #'string=))
 
+(defun check-deadline (path)
+  "Abandon PATH if its time is over."
+  (let ((deadline (path-deadline path)))
+    (when (and deadline (> (foreign:monotonic-seconds) deadline))
+      (abandon path :out-of-time))))
+
 (defun count-jump (path)
-  "Count a jump in a loop of the plan; abandon PATH after too many."
-  (when (minusp (decf (path-jumps-left path)))
-    (abandon path :too-many-jumps)))
+  "Count a jump in a loop of the plan; abandon PATH after too many, or when its time is over."
+  (let ((left (decf (path-jumps-left path))))
+    (cond ((minusp left) (abandon path :too-many-jumps))
+          ((zerop (logand left 1023)) (check-deadline path)))))

@@ -8,11 +8,14 @@
 (in-package #:discrepancy-finder.symbolic-execution)
 
 (defmacro note-place (place)
-  "Note that PLACE, whose subforms are variables, must have its present value after the run."
-  (let ((old (gensym "OLD")))
+  "Note that PLACE, a call of a reader whose arguments are evaluated once, must have its present
+value after the run."
+  (let ((old (gensym "OLD"))
+        (arguments (loop for nil in (rest place) collect (gensym "ARGUMENT"))))
     `(when *path*
-       (let ((,old ,place))
-         (note-undo (lambda () (setf ,place ,old)))))))
+       (let* (,@(mapcar #'list arguments (rest place))
+              (,old (,(first place) ,@arguments)))
+         (note-undo (lambda () (setf (,(first place) ,@arguments) ,old)))))))
 
 (defun decided (value description)
   "Return VALUE, with every symbolic value that can be reached from it decided."
@@ -24,7 +27,8 @@
   (:documentation "Return true if instances of CLASS may hold symbolic values.")
   (:method ((class class))
     (let ((package (and (class-name class) (symbol-package (class-name class)))))
-      (not (and package (system-package-p package))))))
+      (or (subtypep class 'condition)
+          (not (and package (system-package-p package)))))))
 
 (defun system-package-p (package)
   "Return true if PACKAGE belongs to Lisp itself or to this system; instances of classes named in
@@ -87,14 +91,15 @@ those are not entered, but for designators."
             (look-at (car object)))
       (simple-vector
        (loop for index from (1- (length object)) downto 0
-             do (look-at (svref object index))))
+             do (let ((index index)) (look-at (svref object index)))))
       (array
        (loop for index from (1- (array-total-size object)) downto 0
-             do (look-at (row-major-aref object index))))
+             do (let ((index index)) (look-at (row-major-aref object index)))))
       (hash-table
-       (loop for key being the hash-keys of object
-             do (funcall look key)
-                (look-at (gethash key object))))
+       (dolist (key (loop for key being the hash-keys of object collect key))
+         (let ((key key))
+           (funcall look key)
+           (look-at (gethash key object)))))
       (structure-object
        (dolist (slot (structure-slots (type-of object)))
          (let ((index (sb-kernel:dsd-index slot)))

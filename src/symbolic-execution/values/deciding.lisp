@@ -1,8 +1,9 @@
 ;;;; Deciding symbolic values: which of several is it on this path?
 ;;;;
 ;;;; TRUTH decides whether a value is true, SETTLED what it is.  A finite choice is decided
-;;;; completely.  Numbers that can have many values are decided for the first *NUMBER-LIMIT* of
-;;;; them, in an order that depends on the path alone, and the exploration is not complete then.
+;;;; completely, and so is a number with few possible values.  Of an integer with many the first
+;;;; *NUMBER-LIMIT* are taken, of a real one, by an order that depends on the path alone; and the
+;;;; exploration is not complete then.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -54,39 +55,61 @@ there is none."
       (values nil nil)))
 
 (defun settled-number (number description)
-  (let ((term (symbolic-number-term number)))
+  (let ((term (symbolic-number-term number)) (path *path*))
     (multiple-value-bind (low high) (type-bounds (symbolic-number-type number))
-      (cond ((not (integer-term-p term)) (settled-real number description))
-            ((and low high (< (- high low) *number-limit*))
-             (decide *path* description
-                     (loop for value from low to high
-                           collect (cons value (z3:equals term value)))
-                     :exhaustive t))
-            (t (settled-integer term description))))))
+      (decide path description
+              (lambda ()
+                (if (and (integer-term-p term) low high (< (- high low) *number-limit*))
+                    (value-options term (loop for value from low to high collect value))
+                    (let ((values (all-values path term)))
+                      (cond ((listp values) (value-options term values))
+                            ((integer-term-p term) (integer-options path term description))
+                            (t (real-options path term description))))))))))
+
+(defun value-options (term values)
+  "Return the options for VALUES, the only possible ones of the numeric TERM, and true."
+  (values (loop for value in values collect (cons value (z3:equals term value)))
+          t))
+
+(defun all-values (path term)
+  "Return the possible values of the numeric TERM on PATH in ascending order, or :MANY if they are
+more than *NUMBER-LIMIT*."
+  (let ((solver (path-solver path)) (oracle (path-oracle path)) (values '()))
+    (z3:push-scope solver)
+    (unwind-protect
+         (loop repeat *number-limit*
+               do (case (ask oracle)
+                    (:unsat (return (sort values #'<)))
+                    (:unknown (return :many)))
+                  (let ((value (z3:model-value solver term)))
+                    (unless (rationalp value)
+                      (return :many))
+                    (push value values)
+                    (z3:solver-assert solver (z3:negation (z3:equals term value))))
+               finally (return (if (eq (ask oracle) :unsat) (sort values #'<) :many)))
+      (z3:pop-scope solver))))
 
 (defun integer-term-p (term)
   (eq (z3:sort-kind (z3:term-sort term)) :integer))
 
-(defun settled-integer (term description)
-  "Decide for a value of the integer TERM, the values nearest to 0 first."
-  (let ((path *path*) (options '()) (more nil))
-    (outside-the-plan (path)
-      (let ((solver (path-solver path)))
-        (z3:push-scope solver)
-        (unwind-protect
-             (loop repeat (1+ *number-limit*)
-                   for value = (nearest-integer path term)
-                   while value
-                   do (push (cons value (z3:equals term value)) options)
-                      (z3:solver-assert solver (z3:negation (z3:equals term value))))
-          (z3:pop-scope solver)))
-      (when (> (length options) *number-limit*)
-        (pop options)
-        (setf more t)))
+(defun integer-options (path term description)
+  "Return the options for the values of the integer TERM, and true if these are all."
+  (let ((options '()) (more nil) (solver (path-solver path)))
+    (z3:push-scope solver)
+    (unwind-protect
+         (loop repeat (1+ *number-limit*)
+               for value = (nearest-integer path term)
+               while value
+               do (push (cons value (z3:equals term value)) options)
+                  (z3:solver-assert solver (z3:negation (z3:equals term value))))
+      (z3:pop-scope solver))
+    (when (> (length options) *number-limit*)
+      (pop options)
+      (setf more t))
     (when more
       (note-limit path (format nil "other values of a number than the first ~d, at ~a"
                                *number-limit* description)))
-    (decide path description (nreverse options) :exhaustive (not more))))
+    (values (nreverse options) (not more))))
 
 (defun nearest-integer (path term)
   "Return the possible value of the integer TERM on PATH that is nearest to 0, the positive one of
@@ -94,7 +117,7 @@ two, or NIL."
   (flet ((within-p (bound)
            (possible-p path (z3:conjunction (list (z3:less-or-equal (- bound) term)
                                                   (z3:less-or-equal term bound))))))
-    (when (eq (z3:check (path-solver path)) :sat)
+    (unless (eq (ask (path-oracle path)) :unsat)
       (let ((low -1) (high 0))
         ;; No value is within LOW, one is within HIGH.
         (loop until (within-p high)
@@ -107,17 +130,12 @@ two, or NIL."
                        (setf low middle))))
         (if (possible-p path (z3:equals term high)) high (- high))))))
 
-(defun settled-real (number description)
-  "Return a value of the real NUMBER: the one with the least denominator, and of these the one
-nearest to 0.  The exploration is not complete unless it is the only one."
-  (let* ((path *path*) (term (symbolic-number-term number))
-         (value (outside-the-plan (path) (simplest-rational path term)))
-         (equal (z3:equals term value)))
-    (unless value
-      (abandon path :dead-end))
-    (when (outside-the-plan (path) (possible-p path (z3:negation equal)))
-      (note-limit path (format nil "other values of a number than ~a, at ~a" value description)))
-    (decide path description (list (cons value equal)))))
+(defun real-options (path term description)
+  "Return a list of one option for the real TERM, which has many values: the one with the least
+denominator, and of these the one nearest to 0."
+  (let ((value (simplest-rational path term)))
+    (note-limit path (format nil "other values of a number than ~a, at ~a" value description))
+    (and value (list (cons value (z3:equals term value))))))
 
 (defparameter *largest-denominator* 64
   "Values with greater denominators are not looked for.")
@@ -126,7 +144,7 @@ nearest to 0.  The exploration is not complete unless it is the only one."
   "Return the possible value of the real TERM on PATH with the least denominator, and of these the
 one nearest to 0; if none has a small one what Z3 finds first.  NIL if there is none."
   (let ((solver (path-solver path)))
-    (when (eq (z3:check solver) :sat)
+    (unless (eq (ask (path-oracle path)) :unsat)
       (loop for denominator from 1 to *largest-denominator*
             for product = (z3:product (list denominator term))
             when (possible-p path (z3:integral product))
