@@ -145,7 +145,7 @@ forms that evaluate them in FRAME, and else GENERAL."
         ((typep function '(or function symbol)) (code-of function))
         (t (error 'type-error :datum function :expected-type '(or function symbol)))))
 
-(define-analyzer funcall (form scope)
+(define-analyzer (funcall sb-c::%funcall) (form scope)
   (if (null (rest form))
       (global-call-code (find-callee 'funcall) (make-site form) '())
       (let ((function (analyze (second form) scope))

@@ -22,9 +22,14 @@
   "Signal UNSUPPORTED-FORM."
   (error 'unsupported-form :form form :reason reason :position (source:form-position form)))
 
+(defvar *problem-observer* nil
+  "A function that is called with each error that is met when a form is analyzed, or NIL.")
+
 (defun complaining-code (condition)
   "Return the code that signals CONDITION, an error met when a form was analyzed, past the plan's
 handlers if a plan runs: like compiled code, a form complains when it is reached."
+  (when *problem-observer*
+    (funcall *problem-observer* condition))
   (code (frame)
     (if *path*
         (outside-the-plan (*path*) (error condition))
