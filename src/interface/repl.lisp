@@ -10,20 +10,29 @@
 
 (discrepancy:use-data-directories (list (asdf:system-source-directory "discrepancy-finder")))
 
-(defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps
-                                          max-jumps)
+(defun explore-plan (plan &rest options &key domain &allow-other-keys)
   "Return an EXPLORATION that has found every trace of PLAN (a symbol) in DOMAIN (a domain or its
-name) on which the state constraint named CONSTRAINT (NIL: the theory's only one) comes true, and
-the list of these traces; DESCRIBE shows them in full.  ARGUMENTS is a list of (parameter boolean),
-the plan's symbolic arguments; MAX-PATHS, MAX-STEPS (performs on a path) and MAX-JUMPS (iterations
-of loops and retries on a path) bound the search.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
-STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM, NONDETERMINISTIC-PLAN, PLAN-BROKE, ACTION-PROBLEM,
-SOLVER-UNKNOWN."
-  (declare (ignore constraint arguments max-paths max-steps max-jumps))
+name) on which a state constraint comes true, and the list of these traces; DESCRIBE shows them in
+full.  The other options are those of DISCREPANCY-FINDER.SYMBOLIC-EXECUTION:MAKE-EXPLORATION, among
+them :CONSTRAINT (a name; by default the theory's only one), :ARGUMENTS (a list of (parameter type),
+the plan's symbolic arguments), :INTERLEAVINGS, :COVERAGE, :MAX-PATHS, :MAX-STEPS (performs on a
+path), :MAX-JUMPS (iterations of loops and retries on a path) and :MAX-SECONDS.  Signals
+PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM,
+NONDETERMINISTIC-PLAN, PLAN-BROKE, ACTION-PROBLEM, SOLVER-UNKNOWN."
   (let ((exploration (apply #'symbolic:explore-plan (plan:plan-name (discrepancy:ensure-plan plan))
                             :domain (discrepancy:ensure-domain domain)
                             (alexandria:remove-from-plist options :domain))))
     (values exploration (exploration-traces exploration))))
+
+(defun verify-plan (plan &rest options &key domain property &allow-other-keys)
+  "Return a VERIFICATION whether PLAN (a symbol) in DOMAIN (a domain or its name) has PROPERTY on
+every path: a formula over ?time that always holds, or the name of a state constraint; (:never X);
+:NO-FAILURE; :NO-ERROR.  The other options are those of EXPLORE-PLAN but :CONSTRAINT.  See
+DISCREPANCY-FINDER.SYMBOLIC-EXECUTION:VERIFY-PLAN."
+  (declare (ignore property))
+  (apply #'symbolic:verify-plan (plan:plan-name (discrepancy:ensure-plan plan))
+         :domain (discrepancy:ensure-domain domain)
+         (alexandria:remove-from-plist options :domain)))
 
 (defun demo (&key (seed 1) (stream *standard-output*) (command "./discrepancy-finder"))
   "Run both variants of Example 1 with SEED, print their reports and what one sees to STREAM, and

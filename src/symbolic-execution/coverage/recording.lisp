@@ -85,17 +85,24 @@ of the form around it which one runs."
 
 ;;; Steps
 
+(defun note-axioms (recorder axioms)
+  (dolist (axiom axioms)
+    (pushnew axiom (recorder-axioms recorder))))
+
 (defun note-step-taken (recorder state outcome next)
   "Note in RECORDER that OUTCOME led from STATE to NEXT."
   (let ((binding (outcome-binding outcome)))
     (pushnew (list* (action-binding-class binding) (action-binding-type binding)
                     (outcome-number outcome))
              (recorder-outcomes recorder) :test #'equal)
-    (dolist (axiom (ec:axioms-used state (outcome-event outcome) next))
-      (pushnew axiom (recorder-axioms recorder)))))
+    (note-axioms recorder (ec:axioms-used state next))))
 
-(defun note-initial-state (recorder state)
-  "Note in RECORDER what the theory says of the initial STATE."
-  (loop for (axiom) in (ec:initial-conditions state)
-        do (when (typep axiom 'ec:axiom)
-             (pushnew axiom (recorder-axioms recorder)))))
+(defun note-considered (recorder ground outcomes)
+  "Note in RECORDER that the OUTCOMES of an action were considered."
+  (dolist (outcome outcomes)
+    (when (outcome-event outcome)
+      (note-axioms recorder (ec:axioms-about-event ground (outcome-event outcome))))))
+
+(defun note-beginning (recorder ground)
+  "Note in RECORDER what the theory GROUND says of initial states."
+  (note-axioms recorder (ec:initial-axioms ground)))

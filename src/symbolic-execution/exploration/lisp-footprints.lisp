@@ -98,6 +98,8 @@ arguments.")
                   (let ((name (second form)))
                     (when (and (symbolp name) (not (local-function-p name environment)))
                       (note-call use (list name) environment))))
+                 ;; What is left runs its cleanup forms.
+                 ((eq (first form) 'unwind-protect) (setf (lisp-use-unknown-p use) t))
                  ((special-operator-p (first form)))
                  ((macro-function (first form) environment))
                  (t (note-call use form environment)))
@@ -124,12 +126,17 @@ arguments.")
                                       ,@(plan:plan-body plan)))))
                use)))))
 
+(defun apart-p (use)
+  "Return true if code with USE looks at nothing outside of itself."
+  (and (not (lisp-use-unknown-p use)) (null (lisp-use-reads use)) (null (lisp-use-writes use))))
+
 (defun uses-conflict-p (one other)
   "Return true if code with the LISP-USEs ONE and OTHER may not change places."
   (flet ((overlap-p (writes use)
            (or (intersection writes (lisp-use-reads use))
                (intersection writes (lisp-use-writes use)))))
-    (and (or (lisp-use-unknown-p one) (lisp-use-unknown-p other)
+    (and (not (apart-p one)) (not (apart-p other))
+         (or (lisp-use-unknown-p one) (lisp-use-unknown-p other)
              (overlap-p (lisp-use-writes one) other)
              (overlap-p (lisp-use-writes other) one))
          t)))

@@ -142,6 +142,13 @@ must come before J, as bits."
                  (find-if (lambda (turn) (family-turn-p branch turn)) turns :start (1+ j)))
                (remove-duplicates branches))))
 
+(defun effectless-p (turn)
+  "Return true if TURN changes nothing: where its branch is given up, it does not matter whether it
+was there."
+  (and (zerop (turn-changes turn))
+       (null (lisp-use-writes (turn-use turn)))
+       (not (lisp-use-unknown-p (turn-use turn)))))
+
 (defun note-first-ends (path turns j own)
   "The strand of turn J among TURNS went on as soon as one of its branches had ended: note that each
 of these is to end before the turns of the others, as far as they are not in OWN."
@@ -149,7 +156,8 @@ of these is to end before the turns of the others, as far as they are not in OWN
          (ended (ended-branches turns j)))
     (loop for i from (1- j) downto 0
           for turn = (svref turns i)
-          when (and (turn-node turn) (around-p strand turn) (not (logbitp i own)))
+          when (and (turn-node turn) (around-p strand turn) (not (logbitp i own))
+                    (not (effectless-p turn)))
             do (when (ready-at-p strand turn)
                  (note-order path (turn-node turn) strand '()))
                (dolist (branch (remove (branch-below strand turn) ended))
