@@ -12,24 +12,23 @@
 
 (defun explore-plan (plan &rest options &key domain &allow-other-keys)
   "Return an EXPLORATION that has found every trace of PLAN (a symbol) in DOMAIN (a domain or its
-name) on which a state constraint comes true, and the list of these traces; DESCRIBE shows them in
-full.  The other options are those of DISCREPANCY-FINDER.SYMBOLIC-EXECUTION:MAKE-EXPLORATION, among
-them :CONSTRAINT (a name; by default the theory's only one), :ARGUMENTS (a list of (parameter type),
-the plan's symbolic arguments), :INTERLEAVINGS, :COVERAGE, :MAX-PATHS, :MAX-STEPS (performs on a
-path), :MAX-JUMPS (iterations of loops and retries on a path) and :MAX-SECONDS.  Signals
-PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM,
-NONDETERMINISTIC-PLAN, PLAN-BROKE, ACTION-PROBLEM, SOLVER-UNKNOWN."
+name) on which the state constraint :CONSTRAINT (a name, a formula; NIL: the theory's only one)
+comes true, and the list of these traces; DESCRIBE shows them in full.  :ARGUMENTS is a list of
+(parameter type), the plan's symbolic arguments.  See SYMBOLIC-EXECUTION:MAKE-EXPLORATION for these
+and the other options: :TRACES :ORDER :SEED :MAX-PATHS :MAX-STEPS :MAX-JUMPS :MAX-SECONDS
+:INTERLEAVINGS :COVERAGE :FILE-OUTPUT :PROGRESS ....  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
+STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM, NONDETERMINISTIC-PLAN, PLAN-BROKE, ACTION-PROBLEM; the
+restart STOP-EXPLORING returns what was found so far."
   (let ((exploration (apply #'symbolic:explore-plan (plan:plan-name (discrepancy:ensure-plan plan))
                             :domain (discrepancy:ensure-domain domain)
                             (alexandria:remove-from-plist options :domain))))
     (values exploration (exploration-traces exploration))))
 
-(defun verify-plan (plan &rest options &key domain property &allow-other-keys)
-  "Return a VERIFICATION whether PLAN (a symbol) in DOMAIN (a domain or its name) has PROPERTY on
-every path: a formula over ?time that always holds, or the name of a state constraint; (:never X);
-:NO-FAILURE; :NO-ERROR.  The other options are those of EXPLORE-PLAN but :CONSTRAINT.  See
-DISCREPANCY-FINDER.SYMBOLIC-EXECUTION:VERIFY-PLAN."
-  (declare (ignore property))
+(defun verify-plan (plan &rest options &key domain &allow-other-keys)
+  "Return a VERIFICATION whether PLAN (a symbol) has the safety property :PROPERTY in DOMAIN (a
+domain or its name) on all paths: a formula over ?time, the name of a state constraint, (:never
+constraint), :NO-FAILURE or :NO-ERROR; DESCRIBE shows a counterexample in full.  The other options
+are those of EXPLORE-PLAN but :CONSTRAINT and :TRACES, and it signals the same."
   (apply #'symbolic:verify-plan (plan:plan-name (discrepancy:ensure-plan plan))
          :domain (discrepancy:ensure-domain domain)
          (alexandria:remove-from-plist options :domain)))

@@ -1,9 +1,10 @@
 ;;;; Recording which forms of plans are evaluated, which ways their conditions take, which outcomes
+;;;;
 ;;;; steps have and which axioms these make use of.
 ;;;;
-;;;; A RECORDER belongs to an exploration that records its coverage.  While it is in force, forms that
-;;;; have a source position are made into code that notes in a FORM-RECORD when it runs; without one
-;;;; code is as it always is.  See coverage.lisp for what is made of it.
+;;;; A RECORDER belongs to an exploration that records its coverage.  While it is in force, forms
+;;;; that have a source position are made into code that notes in a FORM-RECORD when it runs;
+;;;; without one code is as it always is.  See coverage.lisp for what is made of it.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 

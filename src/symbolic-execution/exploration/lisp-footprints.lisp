@@ -2,9 +2,10 @@
 ;;;;
 ;;;; The branches of a parallel form can change places if neither writes a variable that the other
 ;;;; uses.  A form is walked for the variables that it does not bind itself, and so are the plans
-;;;; and helpers that it calls.  Objects are looked at only as far as this: a form that calls nothing
-;;;; but functions known to change no object changes none.  What calls another function may do
-;;;; anything: its use of Lisp is UNKNOWN.  Entry points: FORM-USE, FUNCTION-USE, USES-CONFLICT-P.
+;;;; and helpers that it calls.  Objects are looked at only as far as this: a form that calls
+;;;; nothing but functions known to change no object changes none.  What calls another function
+;;;; may do anything: its use of Lisp is UNKNOWN.  Entry points: FORM-USE, FUNCTION-USE,
+;;;; USES-CONFLICT-P.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
