@@ -1,8 +1,8 @@
 ;;;; The world outside of a plan: files that a run cannot undo, and the time.
 ;;;;
 ;;;; On a path a file may not be opened for output, nor deleted or renamed, unless the exploration
-;;;; allows it (:FILE-OUTPUT), and Common Lisp's clocks show the plan's virtual time.  This holds for
-;;;; what plans call themselves; compiled code that they call does what it does.
+;;;; allows it (:FILE-OUTPUT), and Common Lisp's clocks show the plan's virtual time.  This holds
+;;;; for what plans call themselves, on every path; compiled code that they call does what it does.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
