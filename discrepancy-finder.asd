@@ -235,7 +235,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "comparison") (:file "division") (:file "types")
                              (:file "conses") (:file "sequences") (:file "arrays")
                              (:file "hash-tables") (:file "instances") (:file "symbols")
-                             (:file "choices") (:file "output") (:file "fluent-operators")))
+                             (:file "choices") (:file "output") (:file "fluent-operators")
+                             (:file "designators") (:file "control")))
                (:module "evaluator"
                 :serial t
                 :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
