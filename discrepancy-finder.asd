@@ -227,7 +227,7 @@ The environment variable CXX names another compiler than g++."))
                (:module "values"
                 :serial t
                 :components ((:file "symbolic-values") (:file "deciding")
-                             (:file "deciding-objects") (:file "interpreted-functions")
+                             (:file "deciding-objects") (:file "globals") (:file "interpreted-functions")
                              (:file "intervals") (:file "arguments")))
                (:module "lifted"
                 :serial t
@@ -237,6 +237,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "hash-tables") (:file "instances") (:file "symbols")
                              (:file "choices") (:file "output") (:file "fluent-operators")
                              (:file "designators") (:file "control")))
+               (:file "coverage/recording")
                (:module "evaluator"
                 :serial t
                 :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
@@ -253,7 +254,10 @@ The environment variable CXX names another compiler than g++."))
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
                              (:file "runs") (:file "exploration") (:file "initial-states")
                              (:file "next-trace")
-                             (:file "verification") (:file "trace-json") (:file "world")))))
+                             (:file "verification") (:file "trace-json") (:file "world")))
+               (:module "coverage"
+                :serial t
+                :components ((:file "coverage") (:file "text") (:file "html")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -333,7 +337,9 @@ The environment variable CXX names another compiler than g++."))
                              (:file "lifted-programs") (:file "values") (:file "symbolic-values")
                              (:file "lifted") (:file "lifted-random")
                              (:file "define-action") (:file "interleavings")
-                             (:file "random-plans") (:file "searching")))
+                             (:file "random-plans") (:file "searching")
+                             (:file "traces") (:file "verification") (:file "coverage")
+                             (:file "cpl-operators")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")

@@ -44,7 +44,8 @@
                    (lambda ()
                      (let ((exploration (symbolic:make-exploration
                                          'discrepancy-finder-user::sixty-actions domain
-                                         :constraint '(exists (?spot) (happens (look ?spot) ?time)))))
+                                         :constraint '(exists (?spot)
+                                                       (happens (look ?spot) ?time)))))
                        (unwind-protect (setf trace (symbolic:next-trace exploration))
                          (symbolic:close-exploration exploration)))))))
     (values seconds (length (symbolic:trace-steps trace)))))

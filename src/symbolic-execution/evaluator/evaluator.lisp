@@ -45,7 +45,7 @@ handlers if a plan runs: like compiled code, a form complains when it is reached
   "The same where the values of FORM are those of the form around it: the exits stay as they are."
   (cond ((symbolp form) (analyze-symbol form scope))
         ((atom form) (constant-code form))
-        (t (handler-case (analyze-compound form scope)
+        (t (handler-case (with-form-noted (form) (analyze-compound form scope))
              (unsupported-form (condition) (complaining-code condition))
              (error (condition)
                (complaining-code
@@ -84,7 +84,8 @@ handlers if a plan runs: like compiled code, a form complains when it is reached
     (cond ((place-p meaning) (frame-reader meaning scope))
           ((eq meaning :symbol-macro) (analyze-macro symbol scope))
           ((eq meaning :constant) (constant-code (symbol-value symbol)))
-          (t (code (frame) (symbol-value symbol))))))
+          (t (note-global symbol)
+             (code (frame) (symbol-value symbol))))))
 
 (defun analyze-all (forms scope)
   (mapcar (lambda (form) (analyze form scope)) forms))

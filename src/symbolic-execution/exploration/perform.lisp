@@ -118,6 +118,8 @@ return the outcome."
     (push (make-trace-step :designator description :event (outcome-event outcome)
                            :outcome (outcome-name outcome) :position position)
           (path-steps path))
+    (when *recorder*
+      (note-step-taken *recorder* (first (path-states path)) outcome next))
     (push (path-depth path) (path-step-depths path))
     (push next (path-states path))
     outcome))

@@ -52,7 +52,8 @@ number, without the one of what is always true."
   (past-seconds 0d0 :type double-float)
   (decisions 0 :type fixnum)
   (decision-checks 0 :type fixnum)
-  (unknowns 0 :type fixnum))
+  (unknowns 0 :type fixnum)
+  (signals-unknown nil :type boolean))
 
 (defun open-oracle (oracle)
   "Give ORACLE a new context and an empty solver."
@@ -91,14 +92,16 @@ number, without the one of what is always true."
 
 (defun ask (oracle &optional (propositions '()))
   "Return :SAT if PROPOSITIONS can be true together with what the solver of ORACLE holds, :UNSAT if
-they cannot, :UNKNOWN if Z3 cannot tell and no handler of SOLVER-UNKNOWN helps it."
-  (block nil
-    (handler-bind ((z3:solver-unknown
-                     (lambda (condition)
-                       (signal condition) ; whoever is outside comes first
-                       (incf (oracle-unknowns oracle))
-                       (return :unknown))))
-      (z3:check (oracle-solver oracle) propositions))))
+they cannot, :UNKNOWN if Z3 cannot tell, unless that is to be signaled."
+  (if (oracle-signals-unknown oracle)
+      (z3:check (oracle-solver oracle) propositions)
+      (block nil
+        (handler-bind ((z3:solver-unknown
+                         (lambda (condition)
+                           (declare (ignore condition))
+                           (incf (oracle-unknowns oracle))
+                           (return :unknown))))
+          (z3:check (oracle-solver oracle) propositions)))))
 
 ;;; Scopes
 
