@@ -227,7 +227,7 @@ The environment variable CXX names another compiler than g++."))
                (:module "values"
                 :serial t
                 :components ((:file "symbolic-values") (:file "deciding")
-                             (:file "deciding-objects") (:file "interpreted-functions")
+                             (:file "deciding-objects") (:file "globals") (:file "interpreted-functions")
                              (:file "intervals") (:file "arguments")))
                (:module "lifted"
                 :serial t
@@ -235,7 +235,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "comparison") (:file "division") (:file "types")
                              (:file "conses") (:file "sequences") (:file "arrays")
                              (:file "hash-tables") (:file "instances") (:file "symbols")
-                             (:file "choices") (:file "output") (:file "fluent-operators")))
+                             (:file "choices") (:file "output") (:file "fluent-operators")
+                             (:file "designators") (:file "control")))
                (:file "coverage/recording")
                (:module "evaluator"
                 :serial t

@@ -89,7 +89,8 @@ handlers if a plan runs: like compiled code, a form complains when it is reached
     (cond ((place-p meaning) (frame-reader meaning scope))
           ((eq meaning :symbol-macro) (analyze-macro symbol scope))
           ((eq meaning :constant) (constant-code (symbol-value symbol)))
-          (t (code (frame) (symbol-value symbol))))))
+          (t (note-global symbol)
+             (code (frame) (symbol-value symbol))))))
 
 (defun analyze-all (forms scope)
   (mapcar (lambda (form) (analyze form scope)) forms))
