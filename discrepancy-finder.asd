@@ -215,7 +215,7 @@ The environment variable CXX names another compiler than g++."))
                "discrepancy-finder/json" "alexandria" (:require "sb-cltl2"))
   :pathname "src/symbolic-execution/"
   :serial t
-  :components ((:file "package") (:file "conditions")
+  :components ((:file "package") (:file "conditions") (:file "current-path")
                (:module "actions"
                 :serial t
                 :components ((:file "action-theory") (:file "bindings") (:file "clauses")
@@ -252,7 +252,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
                              (:file "runs") (:file "exploration") (:file "initial-states")
                              (:file "next-trace")
-                             (:file "verification") (:file "trace-json")))))
+                             (:file "verification") (:file "trace-json") (:file "world")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -333,7 +333,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "lifted-programs") (:file "values") (:file "symbolic-values")
                              (:file "lifted")
                              (:file "define-action") (:file "interleavings")
-                             (:file "random-plans") (:file "plan-files")))
+                             (:file "random-plans") (:file "searching")
+                             (:file "plan-files") (:file "programs-on-a-path")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")
                (:file "projection") (:file "head") (:file "perception")

@@ -42,9 +42,6 @@ KEEP-ERRORS an error of the plan is an ending like others."
   (ending nil)
   (fatal nil))
 
-(defvar *path* nil
-  "The path of the symbolic run in progress.")
-
 (defun path-solver (path)
   "Return the solver that holds what is true on PATH."
   (oracle-solver (path-oracle path)))
