@@ -1,7 +1,7 @@
 ;;;; The evaluator on concrete programs, against SBCL's compiler and against SBCL's own interpreter.
 ;;;;
-;;;; The goals: at most 60 times the time of compiled code, and no more than that of sb-eval.  Rounds
-;;;; of evaluator and compiled code take turns; times are of the processor.
+;;;; The goals: at most 60 times the time of compiled code, and no more than that of sb-eval.
+;;;; Rounds of evaluator and compiled code take turns; times are of the processor.
 
 (in-package #:discrepancy-finder.bench)
 

@@ -13,10 +13,10 @@
   "What is visible: lists of names; functions are (name . number of arguments)."
   (variables '()) (functions '()) (blocks '()) (catches '()) (restarts '()))
 
-(defvar *counter* 0)
+(defvar *name-number* 0)
 
 (defun fresh-name (prefix)
-  (alexandria:symbolicate prefix (princ-to-string (incf *counter*))))
+  (alexandria:symbolicate prefix (princ-to-string (incf *name-number*))))
 
 (defun with-in-world (world &key variable function block catch restart)
   (let ((world (copy-world world)))
@@ -211,9 +211,9 @@ know of it."
                      ,@(some-body (with-in-world world :variable s) depth)
                      (reduce #'+ ,v)))))))
 
-(defun random-lisp-program (seed)
+(defun some-program (seed)
   "Return the random program with the number SEED."
-  (let ((*random-state* (sb-ext:seed-random-state seed)) (*counter* 0))
+  (let ((*random-state* (sb-ext:seed-random-state seed)) (*name-number* 0))
     (let ((a (fresh-name 'a)))
       `(let ((,a ,(random 10)))
          (list ,(some-form (make-world :variables (list a)) (+ 4 (mod seed 2))) ,a)))))
@@ -223,9 +223,9 @@ know of it."
 
 (test random-programs-do-what-they-do-compiled
   (loop for seed from 1 to 300
-        do (let ((mismatch (program-mismatch (random-lisp-program seed))))
+        do (let ((mismatch (program-mismatch (some-program seed))))
              (is (null mismatch) "program ~d: ~a" seed mismatch))))
 
 (test random-programs-are-not-trivial
   (is (< 100 (loop for seed from 1 to 300
-                   count (< 60 (size-of (random-lisp-program seed)))))))
+                   count (< 60 (size-of (some-program seed)))))))

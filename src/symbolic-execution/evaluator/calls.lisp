@@ -3,7 +3,8 @@
 ;;;; A CALLEE stands for a global function at all the places where it is called; it notices when the
 ;;;; function is defined again.  Plans are interpreted.  As long as nothing is symbolic the function
 ;;;; itself is called, if it changes nothing, else the version of it that understands symbolic
-;;;; arguments, or it gets its arguments decided.  Calls with up to four arguments make no list of them.
+;;;; arguments, or it gets its arguments decided.  Calls with up to four arguments make no list of
+;;;; them.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 

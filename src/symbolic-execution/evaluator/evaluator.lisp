@@ -1,8 +1,8 @@
 ;;;; The evaluator: forms made into closures over run-time frames.
 ;;;;
 ;;;; ANALYZE turns a form into CODE, a function of a frame, once; calling it evaluates the form.
-;;;; Special operators, and macros whose expansions would be SBCL's internal matter, have an analyzer
-;;;; each; every other macro is expanded.  Values may be symbolic: an IF on one is a decision, and
+;;;; Special operators, and macros whose expansions would be SBCL's internal matter, have an
+;;;; analyzer each; every other macro is expanded.  Values may be symbolic: an IF on one is a decision, and
 ;;;; of the functions that are called only those get one that can do something with it (calls.lisp).
 ;;;; Interpreted functions are real functions and take them as they are.  Where nothing is symbolic
 ;;;; this is an ordinary evaluator: EVALUATE.
@@ -43,7 +43,7 @@ handlers if a plan runs: like compiled code, a form complains when it is reached
 
 (defun analyze (form scope)
   "Return the code of FORM in SCOPE, where its values are needed."
-  (let ((*exits* '()) (*tails* '()))
+  (let ((*exits* '()) (*tails* '()) (*jumps* 0))
     (analyze-form form scope)))
 
 (defun analyze-form (form scope)
