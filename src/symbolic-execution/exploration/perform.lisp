@@ -103,6 +103,8 @@ the state after it, and the text of DESIGNATOR."
           (let ((outcomes (action-outcomes (path-domain path) designator
                                            :plan plan :position position)))
             (note-outcomes path outcomes)
+            (when *recorder*
+              (note-considered *recorder* (action-theory-ground (path-domain path)) outcomes))
             ;; Its arguments may have been decided meanwhile.
             (multiple-value-bind (recorded next) (recorded-step path description)
               (if recorded
@@ -132,7 +134,9 @@ return the outcome."
   "Return true if DESIGNATOR has no action binding in DOMAIN but a plan of its own: performing it
 enters that plan."
   (and (null (find-action-binding domain designator))
-       (plan:plan-known-p designator)))
+       (progn
+         (note-designator designator)
+         (plan:plan-known-p (decided designator "a designator that is resolved")))))
 
 (defmethod plan:perform-with ((path path) designator position)
   (cond ((path-fatal path) nil)         ; an error unwinds: let it go on
