@@ -33,6 +33,10 @@
   (let ((value (apply function arguments)))
     (list value (compiled-type value))))
 
+(defun compiled-state (key)
+  "A compiled function that looks at a global variable."
+  (compiled-type (state key)))
+
 (defparameter *lifted-programs*
   '(;; truth and equality
     (if b 1 2) (not b) (null e) (null f) (if f :yes :no) (if (not f) 1 2) (eq e :a) (eql x 2)
@@ -318,6 +322,10 @@
       (state :thing))) (setf *state* (list e)) (push x *state*) (setf (getf *state* :list) x)
     (let ((*state* (list e))) (setf (car *state*) x))
     (progv '(*state*) (list (list e)) (setf (symbol-value '*state*) x)) (set '*state* e)
+    (progn (setf (car (state :list)) e) (compiled-state :list))
+    (progn (setf (point-px (getf *state* :point)) (list e)) (compiled-state :point))
+    (let ((l (getf *state* :list))) (compiled-state :list) (setf (second l) e)
+      (compiled-state :list))
     (progn (setf (get 'thing :mark) x) (get 'thing :mark))
     (progn (push e (get 'thing :marks)) (length (get 'thing :marks)))
     (progn (setf (symbol-plist 'fresh-mark) (list :a e)) (getf (symbol-plist 'fresh-mark) :a))

@@ -130,8 +130,9 @@ return the outcome."
   "Return true if DESIGNATOR has no action binding in DOMAIN but a plan of its own: performing it
 enters that plan."
   (and (null (find-action-binding domain designator))
-       ;; Groundings know nothing of symbolic values.
-       (plan:plan-known-p (decided designator "a designator that is resolved"))))
+       (progn
+         (note-designator designator)
+         (plan:plan-known-p (decided designator "a designator that is resolved")))))
 
 (defmethod plan:perform-with ((path path) designator position)
   (cond ((path-fatal path) nil)         ; an error unwinds: let it go on
