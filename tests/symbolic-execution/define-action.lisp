@@ -196,6 +196,20 @@
          ((:success :detect :cup) (:success :drop :bowl :table)))
        (step-lists (explore-kitchen *fetching* :constraint 'anything)) :test #'equal)))
 
+(test types-of-designators-may-be-symbolic
+  "What is performed depends on where the cup is; each type is a path."
+  (let ((steps (step-lists (explore-kitchen "
+(def-top-level-cram-function kitchen-plan (?on-the-shelf)
+  (let ((?type (find ?on-the-shelf '(t nil))) (?bowl (an object (type bowl))))
+    (with-failure-handling ((navigation-low-level-failure () (return)))
+      (perform (a motion (type detecting) (object ?bowl)))
+      (let ((?type (if ?type :going :detecting)))
+        (perform (a motion (type ?type) (target table) (object ?bowl)))))))"
+                                            :constraint 'anything
+                                            :arguments '((?on-the-shelf boolean))))))
+    (is (member '((:success :detect :bowl) (:success :go :table)) steps :test #'equal))
+    (is (member '((:success :detect :bowl) (:success :detect :bowl)) steps :test #'equal))))
+
 (defparameter *generated-locations* "
 (defun poses-at (designator)
   (case (desig-prop-value designator :on)

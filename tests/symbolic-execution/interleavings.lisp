@@ -196,6 +196,22 @@ return the numbers of their paths."
             (perform (a motion (type copying) (from c) (to c))))
        (perform (a motion (type copying) (from b) (to a)))))"))
 
+(test the-order-of-paths-does-not-matter
+  "Runs note the orders that their own turns ask for, so that nothing depends on who comes first."
+  (make-switches)
+  (let* ((text "
+(def-top-level-cram-function switch-plan ()
+  (with-failure-handling ((plan-failure () (return)))
+    (pursue (progn (perform (a motion (type pressing) (switch a)))
+                   (perform (a motion (type copying) (from a) (to b))))
+            (perform (a motion (type copying) (from b) (to a))))))")
+         (expected (outcomes-of-traces (explore-switches text :all))))
+    (dolist (order '(:depth-first :breadth-first :random :coverage))
+      (is (null (set-exclusive-or expected
+                                  (outcomes-of-traces (explore-switches text t :order order))
+                                  :test #'equal))
+          "~a" order))))
+
 ;;; Random plans
 
 (defun random-switch (state)
@@ -210,13 +226,14 @@ return the numbers of their paths."
     (t (format nil "(perform (a motion (type copying) (from ~a) (to ~a)))"
                (random-switch state) (random-switch state)))))
 
-(defun random-branch (state count)
-  (format nil "(progn ~{~a~^ ~})"
+(defun random-branch (state count value)
+  (format nil "(progn ~{~a~^ ~} ~a)"
           (loop repeat count
                 collect (case (random 6 state)
                           (0 (format nil "(progn (setf x (not x)) ~a)" (random-switching state)))
                           (1 (format nil "(if x ~a)" (random-switching state)))
-                          (t (random-switching state))))))
+                          (t (random-switching state))))
+          value))
 
 (defun random-parallel-plan (state)
   (format nil "
@@ -224,10 +241,11 @@ return the numbers of their paths."
   (let ((x nil))
     (list x)
     (with-failure-handling ((plan-failure () (return)))
-      (~a ~a~%          ~a)
-      ~a)))"
+      (if (eql 1 (~a ~a~%          ~a))
+          ~a
+          (perform (a motion (type jamming) (switch b)))))))"
           (elt #("par" "par" "pursue" "try-all") (random 4 state))
-          (random-branch state (1+ (random 2 state))) (random-branch state 1)
+          (random-branch state (1+ (random 2 state)) 1) (random-branch state (random 2 state) 2)
           (random-switching state)))
 
 (test pruning-loses-nothing-on-random-plans

@@ -26,14 +26,15 @@ chooses."
 (defstruct (turn (:copier nil))
   "A turn of the strand with the number STRAND, chosen at NODE if others were ready.  RELATIVES are
 the numbers of the strands around its strand.  LOOKS and CHANGES are sets of fluents.  USE is what
-its code does in Lisp; EVAPORATING is true if it only leaves its task, NEEDS-ALL if all branches
-that its strand has started had to end before."
+its code does in Lisp; STEPS-P is true if it performs something, EVAPORATING if it only leaves its
+task, NEEDS-ALL if all branches that its strand has started had to end before."
   (strand 0 :type fixnum :read-only t)
   (node nil :type (or null node) :read-only t)
   (relatives '() :type list :read-only t)
   (looks 0 :type unsigned-byte)
   (changes 0 :type unsigned-byte)
   (use nil :type lisp-use)
+  (steps-p nil)
   (evaporating nil :read-only t)
   (needs-all nil :read-only t))
 
@@ -160,6 +161,7 @@ a PERFORM has no code of its own."
       (let* ((ground (action-theory-ground (path-domain path)))
              (schedule (path-schedule path))
              (beyond (ash 1 (length (ec:ground-theory-fluents ground)))))
+        (setf (turn-steps-p turn) t)
         (destructuring-bind (visible &rest events) (schedule-visible schedule)
           (dolist (outcome outcomes)
             (let ((event (ec:event-number ground (outcome-event outcome))))

@@ -143,12 +143,14 @@ must come before J, as bits."
                  (find-if (lambda (turn) (family-turn-p branch turn)) turns :start (1+ j)))
                (remove-duplicates branches))))
 
-(defun effectless-p (turn)
-  "Return true if TURN changes nothing: where its branch is given up, it does not matter whether it
-was there."
-  (and (zerop (turn-changes turn))
-       (null (lisp-use-writes (turn-use turn)))
-       (not (lisp-use-unknown-p (turn-use turn)))))
+(defun effectless-p (turns i branch)
+  "Return true if the turn I among TURNS, which belongs to BRANCH, performs and writes nothing and
+does not end the branch: where this is given up, it does not matter whether it was there."
+  (let* ((turn (svref turns i)) (use (turn-use turn)))
+    (and (not (turn-steps-p turn))
+         (null (lisp-use-writes use))
+         (not (lisp-use-unknown-p use))
+         (find-if (lambda (turn) (family-turn-p branch turn)) turns :start (1+ i)))))
 
 (defun note-first-ends (path turns j own)
   "The strand of turn J among TURNS went on as soon as one of its branches had ended: note that each
@@ -158,7 +160,7 @@ of these is to end before the turns of the others, as far as they are not in OWN
     (loop for i from (1- j) downto 0
           for turn = (svref turns i)
           when (and (turn-node turn) (around-p strand turn) (not (logbitp i own))
-                    (not (effectless-p turn)))
+                    (not (effectless-p turns i (branch-below strand turn))))
             do (when (ready-at-p strand turn)
                  (note-order path (turn-node turn) strand '()))
                (dolist (branch (remove (branch-below strand turn) ended))
