@@ -13,7 +13,8 @@
   "What NOTE-RESULTS was called with.")
 
 (defun note-results (&rest results)
-  (pushnew results *results* :test #'equal))
+  ;; What was decided inside of objects is undone after the run.
+  (pushnew (copy-tree results) *results* :test #'equal))
 
 (defparameter *operator-helpers* "
 (defun act (flag)

@@ -23,6 +23,14 @@ their place, also in a list of them."
                        (apply function (mapcar #'codes-within arguments)))
                      t)))
 
+;; The parts of a policy are compiled code.
+(register-lifted 'plan::call-with-policy :transparent
+                 (lambda (policy parameters function)
+                   (plan::call-with-policy (decided policy "a policy")
+                                           (decided parameters "the parameters of a policy")
+                                           (codes-within function)))
+                 t)
+
 ;;; Fluents
 
 (defun note-fluent (fluent)
