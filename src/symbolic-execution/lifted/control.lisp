@@ -1,8 +1,8 @@
 ;;;; Functions of the plan language: what its macros call, and fluents.
 ;;;;
 ;;;; The control functions hand on what the functions return that they are given: these may return
-;;;; symbolic values.  Fluents hold none, for compiled code waits for them; what a plan sets a fluent
-;;;; to is forgotten after the run.
+;;;; symbolic values.  Fluents hold none, for compiled code waits for them; what a plan sets a
+;;;; fluent to is forgotten after the run.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
