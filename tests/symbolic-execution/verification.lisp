@@ -111,3 +111,22 @@
                            (df:verify-plan 'discrepancy-finder-user::move-the-box
                                            :domain :two-regions
                                            :property '(:never (holds-at (holding-box) ?time)))))))
+
+(test counterexamples-run-in-the-projection-world
+  "The robot does hold the box, from a sample of the counterexample's initial state."
+  (let* ((verification (df:verify-plan 'discrepancy-finder-user::move-the-box
+                                       :domain :two-regions
+                                       :property '(:never (holds-at (holding-box) ?time))))
+         (trace (df:verification-counterexample verification))
+         (domain (two-regions))
+         (parameters (discrepancy:initial-parameters domain trace))
+         (run (discrepancy:execute-sample domain 'discrepancy-finder-user::move-the-box
+                                          (discrepancy:draw-sample parameters 1 1 0)
+                                          :trace trace)))
+    (is (equal '((:move :r2) (:pick-up)) (mapcar #'symbolic:step-event
+                                                 (symbolic:trace-steps trace))))
+    (is (member '(:holding-box) (ec:state-fluents (symbolic:trace-final-state trace))
+                :test #'equal))
+    (is (= 2 (length (discrepancy:run-steps run))))
+    (is (member '(:holding-box) (discrepancy::observed-fluents (discrepancy:run-final-state run))
+                :test #'equal))))

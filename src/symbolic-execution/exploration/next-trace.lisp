@@ -4,7 +4,7 @@
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
-(defconstant +oracle-load+ 100000
+(defparameter *oracle-load* 100000
   "After so many new options Z3 is given a new context, so that old terms need no memory.")
 
 (defun note-gap (exploration control &rest arguments)
@@ -139,7 +139,7 @@ NIL if there is no path."
 (defun prepare-oracle (exploration)
   "Give Z3 a new context if it holds too much, or is in doubt."
   (let ((oracle (exploration-oracle exploration)))
-    (when (or (null (oracle-context oracle)) (> (oracle-load oracle) +oracle-load+))
+    (when (or (null (oracle-context oracle)) (> (oracle-load oracle) *oracle-load*))
       (renew-oracle oracle))))
 
 (defun run-next-path (exploration)

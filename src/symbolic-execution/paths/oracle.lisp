@@ -11,13 +11,14 @@
 (defstruct (decision (:constructor make-decision (choice description)) (:copier nil))
   "CHOICE is the number of the option taken, DESCRIPTION says of what.  The rest is what the first
 run that took it has found out, valid in EPOCH: the PROPOSITION assumed, the VALUE of the option.
-What a step performs is its DESIGNATOR."
+What a step performs is its DESIGNATOR, and POSITION where, if the description does not say."
   (choice 0 :type (integer 0) :read-only t)
   (description "" :type string :read-only t)
   (epoch -1 :type fixnum)
   (proposition t)
   (value nil)
-  (designator nil))
+  (designator nil)
+  (position nil))
 
 (setf (documentation 'decision-choice 'function)
       "Return the number of the option that a decision takes, counted from 0."
