@@ -127,6 +127,7 @@ by pair."
   (format stream "symbolic execution        ~,2f ms for Example 1~%"
           (* 1d3 (median-seconds (lambda () (example-trace)) :rounds 21)))
   (print-plan-benchmarks stream)
+  (print-evaluator-benchmarks stream)
   (print-bounded-benchmarks stream)
   (print-progression-benchmarks stream)
   (print-exploration-benchmarks stream))

@@ -48,14 +48,14 @@ that binds it, or globally."
         (progv (list name) (list value) (funcall function)))))
 
 (defun bind-in-order (bindings scope specials analyze-inside)
-  "Return the code that binds variables one after the other in its frame, which is SCOPE's innermost,
-and then runs what ANALYZE-INSIDE, a function of the inner scope, returns.  BINDINGS is a list of
+  "Return the code that binds variables one after the other in its frame, SCOPE's innermost one, and
+then runs what ANALYZE-INSIDE, a function of the inner scope, returns.  BINDINGS is a list of
 (name . function): the function returns, for a scope, the code of the value.  SPECIALS are the
 variables declared special by the form."
   (if (null bindings)
       (funcall analyze-inside scope)
       (destructuring-bind ((name . analyzer) . more) bindings
-        (let ((value (let ((*exits* '()) (*tails* '())) (funcall analyzer scope))))
+        (let ((value (let ((*exits* '()) (*tails* '()) (*jumps* 0)) (funcall analyzer scope))))
           (declare (type function value))
           (if (special-p name specials)
               (let ((inside (bind-in-order more (scope-with-specials scope (list name)) specials

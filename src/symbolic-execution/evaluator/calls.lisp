@@ -3,7 +3,8 @@
 ;;;; A CALLEE stands for a global function at all the places where it is called; it notices when the
 ;;;; function is defined again.  Plans are interpreted.  As long as nothing is symbolic the function
 ;;;; itself is called, if it changes nothing, else the version of it that understands symbolic
-;;;; arguments, or it gets its arguments decided.  Calls with up to four arguments make no list of them.
+;;;; arguments, or it gets its arguments decided.  Calls with up to four arguments make no list of
+;;;; them.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -145,7 +146,7 @@ forms that evaluate them in FRAME, and else GENERAL."
         ((typep function '(or function symbol)) (code-of function))
         (t (error 'type-error :datum function :expected-type '(or function symbol)))))
 
-(define-analyzer funcall (form scope)
+(define-analyzer (funcall sb-c::%funcall) (form scope)
   (if (null (rest form))
       (global-call-code (find-callee 'funcall) (make-site form) '())
       (let ((function (analyze (second form) scope))

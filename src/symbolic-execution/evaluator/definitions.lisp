@@ -39,9 +39,14 @@
         (setf (macro-function name) (run expander frame))
         name))))
 
-;;; Structures are compiled: what their constructors and accessors do is no matter of the evaluator.
+;;; The functions of structures are compiled, unless default values are of a lexical scope
 
-(define-analyzer (defstruct define-method-combination) (form scope)
+(define-analyzer defstruct (form scope)
+  (if (or (scope-variables scope) (scope-functions scope))
+      (analyze-macro form scope)
+      (code (frame) (eval form))))
+
+(define-analyzer define-method-combination (form scope)
   (code (frame) (eval form)))
 
 ;;; Methods

@@ -1,8 +1,8 @@
 ;;;; The evaluator: forms made into closures over run-time frames.
 ;;;;
 ;;;; ANALYZE turns a form into CODE, a function of a frame, once; calling it evaluates the form.
-;;;; Special operators, and macros whose expansions would be SBCL's internal matter, have an analyzer
-;;;; each; every other macro is expanded.  Values may be symbolic: an IF on one is a decision, and
+;;;; Special operators, and macros whose expansions would be SBCL's internal matter, have an
+;;;; analyzer each; every other macro is expanded.  Values may be symbolic: an IF on one is a decision, and
 ;;;; of the functions that are called only those get one that can do something with it (calls.lisp).
 ;;;; Interpreted functions are real functions and take them as they are.  Where nothing is symbolic
 ;;;; this is an ordinary evaluator: EVALUATE.
@@ -22,9 +22,14 @@
   "Signal UNSUPPORTED-FORM."
   (error 'unsupported-form :form form :reason reason :position (source:form-position form)))
 
+(defvar *problem-observer* nil
+  "A function that is called with each error that is met when a form is analyzed, or NIL.")
+
 (defun complaining-code (condition)
   "Return the code that signals CONDITION, an error met when a form was analyzed, past the plan's
 handlers if a plan runs: like compiled code, a form complains when it is reached."
+  (when *problem-observer*
+    (funcall *problem-observer* condition))
   (code (frame)
     (if *path*
         (outside-the-plan (*path*) (error condition))
@@ -38,7 +43,7 @@ handlers if a plan runs: like compiled code, a form complains when it is reached
 
 (defun analyze (form scope)
   "Return the code of FORM in SCOPE, where its values are needed."
-  (let ((*exits* '()) (*tails* '()))
+  (let ((*exits* '()) (*tails* '()) (*jumps* 0))
     (analyze-form form scope)))
 
 (defun analyze-form (form scope)

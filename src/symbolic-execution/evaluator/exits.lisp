@@ -73,6 +73,9 @@
   (or (symbolp thing) (integerp thing)))
 
 (define-analyzer tagbody (form scope)
+  (let ((tags (remove-if-not #'tag-p (rest form))))
+    (unless (= (length tags) (length (remove-duplicates tags)))
+      (unsupported form "a tag occurs twice in it")))
   (analyze-with-frame
    scope
    (lambda (scope)

@@ -10,7 +10,7 @@
   "Return the code that makes the interpreted function with LAMBDA-LIST and BODY."
   (multiple-value-bind (forms declarations) (alexandria:parse-body body :documentation t)
     (let ((specials (declared-specials declarations))
-          (*exits* '()) (*tails* '()))
+          (*exits* '()) (*tails* '()) (*jumps* 0))
       (multiple-value-bind (required optional rest keys allow-other-keys aux keyp)
           (handler-case (alexandria:parse-ordinary-lambda-list lambda-list)
             (error (condition)

@@ -60,16 +60,26 @@ list of arguments or NIL, comes after them."
                    last))
          (method (first methods))
          (code (method-code method)))
-    (if code
-        (funcall (the function code) arguments next)
-        (funcall (the function (sb-mop:method-function method))
-                 (if (symbolic-run-p)
-                     (loop for argument in arguments collect (decided argument description))
-                     arguments)
-                 (and next
-                      (list (lambda (arguments next-methods)
-                              (declare (ignore next-methods))
-                              (funcall next arguments))))))))
+    (cond (code (funcall (the function code) arguments next))
+          ((typep method 'sb-mop:standard-accessor-method) (access-slot method arguments))
+          (t (funcall (the function (sb-mop:method-function method))
+                      (if (symbolic-run-p)
+                          (loop for argument in arguments collect (decided argument description))
+                          arguments)
+                      (and next
+                           (list (lambda (arguments next-methods)
+                                   (declare (ignore next-methods))
+                                   (funcall next arguments)))))))))
+
+(defun access-slot (method arguments)
+  "Do what METHOD, which reads or writes a slot, does with ARGUMENTS.  Its function is of another
+kind than those of other methods."
+  (let ((slot (sb-mop:slot-definition-name (sb-mop:accessor-method-slot-definition method))))
+    (destructuring-bind (first &optional second) arguments
+      (if (typep method 'sb-mop:standard-writer-method)
+          (funcall (the function (or (lifted-function '(setf slot-value)) #'(setf slot-value)))
+                   first second slot)
+          (slot-value first slot)))))
 
 (defun settled-for-dispatch (function required arguments description)
   "Return ARGUMENTS such that the first REQUIRED of them decide which methods of FUNCTION apply."

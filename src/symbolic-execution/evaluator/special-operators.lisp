@@ -29,6 +29,12 @@
       (analyze-body (cddr form) scope)
       (constant-code nil)))
 
+(define-analyzer sb-cltl2:compiler-let (form scope)
+  (let ((*path* nil) (bindings (mapcar #'alexandria:ensure-list (second form))))
+    (progv (mapcar #'first bindings)
+        (loop for (nil value) in bindings collect (values (evaluate-form value)))
+      (analyze-body (cddr form) scope))))
+
 (define-analyzer load-time-value (form scope)
   (constant-code (let ((*path* nil)) (values (evaluate-form (second form))))))
 
