@@ -26,12 +26,6 @@ REPLAY-ERROR."))
       (replay-problem "~s is ~s where one of ~{~(~a~)~^, ~} was expected" key
                       (value-of object key 'string) choices)))
 
-(defun boolean-of (value)
-  (case value
-    (:true t)
-    (:false nil)
-    (t (replay-problem "~a was found where true or false was expected" value))))
-
 (defun double-of (object key)
   "Return the number that KEY has in OBJECT as a double float."
   (let ((value (value-of object key 'real)))
@@ -119,8 +113,13 @@ theory must allow them."
                        initial state~]" (zerop refused) refused))
     states))
 
+(defun argument-of (value)
+  (handler-case (symbolic:argument-from-json value)
+    (symbolic:invalid-trace (condition)
+      (replay-problem "~s: ~a" "arguments" (symbolic:invalid-trace-reason condition)))))
+
 (defun read-arguments (object plan)
-  (let ((arguments (map 'list #'boolean-of (value-of object "arguments" 'simple-vector))))
+  (let ((arguments (map 'list #'argument-of (value-of object "arguments" 'simple-vector))))
     (handler-case (check-plan-arguments (plan:plan-name plan) arguments)
       (invalid-argument () (replay-problem "~s do not fit the plan" "arguments")))
     arguments))

@@ -37,7 +37,7 @@
 
 (defun trace-json (trace)
   (json:object
-   "arguments" (map 'vector #'json-boolean (symbolic:trace-arguments trace))
+   "arguments" (map 'vector #'symbolic:argument-to-json (symbolic:trace-arguments trace))
    "initial" (map 'vector #'ec:atom-text (ec:state-fluents (symbolic:trace-initial-state trace)))
    "steps" (map 'vector
                 (lambda (step)

@@ -14,7 +14,7 @@
    #:action-theory-actions #:define-action #:register-action #:region-of-pose #:region-of
    #:value-of #:truth-of
    #:action-binding #:find-action-binding #:find-action-theory #:register-action-theory
-   #:all-action-theories
+   #:all-action-theories #:make-domain
    #:entered-p #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition
    ;; exploration
    #:explore-plan #:make-exploration #:next-trace #:exploration #:exploration-traces
@@ -30,6 +30,7 @@
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
    #:trace= #:trace-decisions #:trace-ending #:trace-output #:trace-decision #:taken-text
    #:taken-choice #:taken-time #:trace-to-json #:trace-from-json
+   #:argument-to-json #:argument-from-json
    ;; verification
    #:verify-plan #:verification #:verification-verdict #:verification-property
    #:verification-counterexample #:verification-problem #:verification-bounds

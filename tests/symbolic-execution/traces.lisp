@@ -124,6 +124,7 @@
   (is (equal '((() ((:toggle :a)) (:a 0 nil 2)))
              (summaries-of "
 (def-top-level-cram-function lamp-plan (?lamp ?n ?flag ?m)
+  (declare (ignore ?n))
   (when (and (< 1 ?m) (not ?flag))
     (perform (a motion (type toggling) (lamp ?lamp)))))"
                            :constraint 'lamp-a-lit
@@ -207,6 +208,13 @@
     (let ((copy (symbolic:trace-from-json (symbolic:trace-to-json trace) :coins)))
       (is (equal (mapcar #'ec:state-fluents (symbolic:trace-states trace))
                  (mapcar #'ec:state-fluents (symbolic:trace-states copy)))))))
+
+(test arguments-go-through-json
+  (dolist (argument '(t nil 0 -17 1/3 :cup car "text"))
+    (is (equal argument (symbolic:argument-from-json
+                         (json:parse (json:encode (symbolic:argument-to-json argument)))))))
+  (signals symbolic:invalid-trace (symbolic:argument-to-json '(1 2)))
+  (signals symbolic:invalid-trace (symbolic:argument-from-json :null)))
 
 (test texts-that-are-no-traces-are-refused
   (let ((text (symbolic:trace-to-json (first (deciding-traces)))))

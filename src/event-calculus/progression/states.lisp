@@ -125,14 +125,20 @@ are released, and timeless atoms are true, and which events happened just before
 (defun state-in-model (state value-of &optional predecessor)
   "Return STATE with the truth values and numbers that the function VALUE-OF returns for its terms,
 and no Z3 context.  PREDECESSOR is what the same made of the predecessor of STATE."
-  (flet ((value (proposition)
-           (if (z3:term-p proposition) (funcall value-of proposition) proposition)))
+  (labels ((value (proposition)
+             (if (z3:term-p proposition) (funcall value-of proposition) proposition))
+           (concrete (vector)
+             ;; What has no terms is shared: traces have many states.
+             (declare (type simple-vector vector))
+             (if (find-if #'z3:term-p vector)
+                 (map 'simple-vector #'value vector)
+                 vector)))
     (make-state :outline (state-outline state) :time (state-time state) :predecessor predecessor
-                :values (map 'simple-vector #'value (state-values state))
-                :released (map 'simple-vector #'value (state-released state))
-                :numbers (map 'simple-vector #'value (state-numbers state))
-                :loose-numbers (map 'simple-vector #'value (state-loose-numbers state))
-                :statics (map 'simple-vector #'value (state-statics state))
+                :values (concrete (state-values state))
+                :released (concrete (state-released state))
+                :numbers (concrete (state-numbers state))
+                :loose-numbers (concrete (state-loose-numbers state))
+                :statics (concrete (state-statics state))
                 :events (loop for (number . proposition) in (state-events state)
                               when (value proposition) collect (cons number t))
                 :turns (loop for (cause . propositions) in (state-turns state)

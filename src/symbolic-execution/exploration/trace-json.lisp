@@ -15,8 +15,9 @@
 
 ;;; Writing
 
-(defun value-json (value)
-  "Return VALUE, an argument or the name of something, as a JSON value."
+(defun argument-to-json (value)
+  "Return VALUE, an argument of a plan or the name of something, as a JSON value.  Signals
+INVALID-TRACE if it is no truth value, rational, symbol or string."
   (typecase value
     (null :false)
     ((eql t) :true)
@@ -42,7 +43,7 @@
 (defun step-json (step)
   (json:object "designator" (step-designator step)
                "event" (if (step-event step) (ec:atom-text (step-event step)) :null)
-               "outcome" (value-json (step-outcome step))
+               "outcome" (argument-to-json (step-outcome step))
                "position" (position-json (step-position step))))
 
 (defun decision-json (decision)
@@ -53,12 +54,12 @@
   "Return TRACE as a JSON text.  Signals INVALID-TRACE if an argument cannot be written."
   (json:encode
    (json:object "format" *trace-format*
-                "plan" (value-json (trace-plan trace))
-                "arguments" (map 'vector #'value-json (trace-arguments trace))
+                "plan" (argument-to-json (trace-plan trace))
+                "arguments" (map 'vector #'argument-to-json (trace-arguments trace))
                 "states" (map 'vector #'state-json (trace-states trace))
                 "steps" (map 'vector #'step-json (trace-steps trace))
                 "decisions" (map 'vector #'decision-json (trace-decisions trace))
-                "ending" (value-json (trace-ending trace))
+                "ending" (argument-to-json (trace-ending trace))
                 "output" (trace-output trace))))
 
 ;;; Reading
@@ -77,7 +78,9 @@
     (or (and package (find-symbol name package))
         (refuse-trace "there is no symbol ~a in package ~a" name package-name))))
 
-(defun value-from-json (value)
+(defun argument-from-json (value)
+  "Return what the JSON VALUE stands for, see ARGUMENT-TO-JSON.  Interns nothing.  Signals
+INVALID-TRACE."
   (cond ((eq value :true) t)
         ((eq value :false) nil)
         ((stringp value) value)
@@ -153,7 +156,7 @@ JSON-ERROR, and INVALID-TRACE if the text is no trace or the theory does not all
                         (eql refused 0) refused))
         (make-execution-trace
          :plan (symbol-from-json (part object "plan" 'list))
-         :arguments (list-from-json object "arguments" #'value-from-json)
+         :arguments (list-from-json object "arguments" #'argument-from-json)
          :steps steps :states states
          :decisions (list-from-json object "decisions" #'decision-from-json)
          :ending (symbol-from-json (part object "ending" 'list))
