@@ -7,19 +7,19 @@
 (def-suite plan-files :in all)
 (in-suite plan-files)
 
-(defvar *notes* '()
+(defvar *file-notes* '()
   "What the paths of a plan have noted, the last first.")
 
 (defun note-down (thing)
   "Note THING, in which nothing is symbolic any more."
-  (push (copy-tree thing) *notes*) ; changes of THING are undone after the run
+  (push thing *file-notes*)
   nil)
 
 (defun notes-of (text &optional (arguments '((discrepancy-finder-user::?flag boolean))))
   "Return what the paths of the plan lamp-plan in TEXT note, and the exploration."
-  (setf *notes* '())
+  (setf *file-notes* '())
   (let ((exploration (explore-text text :constraint 'anything :arguments arguments)))
-    (values (reverse *notes*) exploration)))
+    (values (reverse *file-notes*) exploration)))
 
 (defmacro is-noted (expected text)
   `(let ((notes (notes-of ,text)))

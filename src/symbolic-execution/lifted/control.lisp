@@ -1,35 +1,32 @@
 ;;;; Functions of the plan language: what its macros call, and fluents.
 ;;;;
 ;;;; The control functions hand on what the functions return that they are given: these may return
-;;;; symbolic values.  Fluents hold none, for compiled code waits for them; what a plan sets a fluent
-;;;; to is forgotten after the run.
+;;;; symbolic values.  Fluents hold none, for compiled code waits for them; what a plan sets a
+;;;; fluent to is forgotten after the run.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
-(defun codes-within (argument)
-  "Return ARGUMENT, an argument of a control function, with the codes of interpreted functions in
-their place, also in a list of them."
+(defun control-argument (argument description)
+  "Return ARGUMENT, an argument of a control function, as that can take it: functions, also in a
+list, as what may return symbolic values, all else decided."
   (cond ((interpreted-function-p argument) (interpreted-function-code argument))
         ((and (consp argument) (alexandria:proper-list-p argument)
               (every #'interpreted-function-p argument))
          (mapcar #'interpreted-function-code argument))
-        (t argument)))
+        (t (decided argument description))))
 
 (dolist (name plan:*control-functions*)
-  (let ((function (fdefinition name)))
+  (let ((function (fdefinition name)) (description (describe-decision name)))
     (declare (function function))
     (register-lifted name :transparent
                      (lambda (&rest arguments)
-                       (apply function (mapcar #'codes-within arguments)))
+                       (apply function (loop for argument in arguments
+                                             collect (control-argument argument description))))
                      t)))
 
-;; The parts of a policy are compiled code.
-(register-lifted 'plan::call-with-policy :transparent
-                 (lambda (policy parameters function)
-                   (plan::call-with-policy (decided policy "a policy")
-                                           (decided parameters "the parameters of a policy")
-                                           (codes-within function)))
-                 t)
+(define-transparent (plan::call-par-loop) (function sequence any-body)
+  (plan::call-par-loop (code-of function)
+                       (settled-sequence sequence "an argument of par-loop") any-body))
 
 ;;; Fluents
 

@@ -1,7 +1,7 @@
 ;;;; Designators: the values of their properties are handed on as they are, their keys are decided.
 ;;;;
-;;;; What resolves a designator is opaque: everything in it is decided then.  Chains and solutions of
-;;;; designators that existed before the run are as before after it.
+;;;; What resolves a designator is opaque: everything in it is decided then.  Chains and solutions
+;;;; of designators that existed before the run are as before after it.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 

@@ -81,7 +81,7 @@ which those whose names do not begin with ANY are decided first."
                   `(apply #',name ,@required ,@(mapcar #'first optional)
                           ,(if (any-p rest)
                                rest
-                               `(mapcar (lambda (value) (settled value ,(describe-decision name))) ,rest))))
+                               `(settled-each ,rest ,(describe-decision name)))))
                  (optional
                   (labels ((call (variables options)
                              (if options

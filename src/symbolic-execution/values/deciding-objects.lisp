@@ -2,8 +2,9 @@
 ;;;;
 ;;;; DECIDED walks everything that can be reached from a value through conses, arrays, hash tables,
 ;;;; structures and instances, each object once, and puts what was decided in the place of each
-;;;; symbolic value: objects stay the same, and are as before after the run.  Objects of the Lisp
-;;;; system and of this one are not entered, since nobody can put a symbolic value there.
+;;;; symbolic value: objects stay the same.  That need not be undone after the run: who has put a
+;;;; symbolic value into an older object has noted how to undo that.  Objects of the Lisp system and
+;;;; of this one are not entered, since nobody can put a symbolic value there.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -84,7 +85,6 @@ those are not entered, but for designators."
   (macrolet ((look-at (place)
                `(let* ((old ,place) (new (funcall look old)))
                   (unless (eq old new)
-                    (note-place ,place)
                     (setf ,place new)))))
     (typecase object
       (cons (look-at (cdr object))

@@ -1,8 +1,8 @@
 ;;;; Global variables: compiled code may look at objects that they hold.
 ;;;;
-;;;; What is stored in a global variable is decided, but an object that it holds may be changed later
-;;;; by interpreted code.  Before compiled code of the user's runs, the variables that interpreted
-;;;; code mentions are looked through, if anything was changed since the last time.
+;;;; What is stored in a global variable is decided, but an object that it holds may be changed
+;;;; later by interpreted code.  Before compiled code of the user's runs, the variables that
+;;;; interpreted code mentions are looked through, if anything was changed since the last time.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
