@@ -227,7 +227,7 @@ The environment variable CXX names another compiler than g++."))
                (:module "values"
                 :serial t
                 :components ((:file "symbolic-values") (:file "deciding")
-                             (:file "deciding-objects") (:file "interpreted-functions")
+                             (:file "deciding-objects") (:file "globals") (:file "interpreted-functions")
                              (:file "intervals") (:file "arguments")))
                (:module "lifted"
                 :serial t
@@ -235,7 +235,9 @@ The environment variable CXX names another compiler than g++."))
                              (:file "comparison") (:file "division") (:file "types")
                              (:file "conses") (:file "sequences") (:file "arrays")
                              (:file "hash-tables") (:file "instances") (:file "symbols")
-                             (:file "choices") (:file "output") (:file "fluent-operators")))
+                             (:file "choices") (:file "output") (:file "fluent-operators")
+                             (:file "designators") (:file "control")))
+               (:file "coverage/recording")
                (:module "evaluator"
                 :serial t
                 :components ((:file "scope") (:file "jumps") (:file "evaluator") (:file "exits")
@@ -252,7 +254,10 @@ The environment variable CXX names another compiler than g++."))
                              (:file "states-along") (:file "traces-of-paths") (:file "orders")
                              (:file "runs") (:file "exploration") (:file "initial-states")
                              (:file "next-trace")
-                             (:file "verification") (:file "trace-json") (:file "world")))))
+                             (:file "verification") (:file "trace-json") (:file "world")))
+               (:module "coverage"
+                :serial t
+                :components ((:file "coverage") (:file "text") (:file "html")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -330,10 +335,13 @@ The environment variable CXX names another compiler than g++."))
                              (:file "random-programs")
                              (:file "exploration") (:file "parallel")
                              (:file "table") (:file "open-theories")
-                             (:file "lifted-programs") (:file "values") (:file "symbolic-values")
-                             (:file "lifted")
+                             (:file "lifted-programs") (:file "values") (:file "lifted-changes")
+                             (:file "symbolic-values")
+                             (:file "lifted") (:file "lifted-random")
                              (:file "define-action") (:file "interleavings")
                              (:file "random-plans") (:file "searching")
+                             (:file "traces") (:file "verification") (:file "coverage")
+                             (:file "cpl-operators")
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
                (:file "bullet-rays")

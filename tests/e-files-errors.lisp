@@ -335,3 +335,25 @@ Label: HoldsAt(Unseen(Freshly),0).")
                         unless (eq package (find-package '#:keyword))
                           sum (let ((count 0))
                                 (do-symbols (symbol package count) (incf count))))))))
+
+(test kinds-are-not-mixed
+  (is (search "F is a fluent and E an event"
+              (report-of 'ec:e-file-error
+                         (lambda ()
+                           (ec:parse-e-text "fluent F()
+event E()
+mutex F, E
+range time 0 1")))))
+  (is (search "the sort agent has both a range and constants"
+              (report-of 'ec:e-file-error
+                         (lambda ()
+                           (ec:parse-e-text "sort agent
+agent A
+range agent 0 1"))))))
+
+(test names-of-files-are-shown-as-they-are
+  (let ((theory (ec:parse-e-text "fluent F()
+range time 0 100000000
+[time] HoldsAt(F(),time)." :name "Big")))
+    (is (search "theory Big: the timepoints"
+                (report-of 'ec:theory-error (lambda () (ec:consistent-p theory)))))))

@@ -350,3 +350,13 @@ range time 0 1
     (is-true (search "Ab1(Grip, 0)." text))
     (is-true (search "Happens(Unload(), 1)." text))
     (is (null (search "R-1" text)))))
+
+(test saving-by-name
+  (with-file (file "")
+    (ec:define-theory saved-by-name "A fluent." (:fluents (shining)))
+    (is (equal (truename file) (ec:save-e-theory 'saved-by-name file)))
+    (is (equal '((:|Shining|)) (ec:theory-fluents (ec:read-e-theory file)))))
+  (is (search "there is no folder"
+              (report-of 'source:source-error
+                         (lambda ()
+                           (ec:save-e-theory 'saved-by-name "/no-such-folder/x.e"))))))

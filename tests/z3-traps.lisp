@@ -157,6 +157,23 @@ this one ends."
             (is (< (- after before) 25)))))
       (skip "Run with *LONG* true.")))
 
+(test timeouts-end-what-the-timer-of-libz3-does-not
+  "The timer of libz3 4.8.12 ends in a deadlock here."
+  (with-z3 (context solver :logic nil :timeout 1/5)
+    (flet ((power (base exponent)
+             (z3:product (make-list exponent :initial-element base)))
+           (integer-variable (name)
+             (z3:variable context name (z3:integer-sort context))))
+      (let ((x (integer-variable "x")) (y (integer-variable "y")) (z (integer-variable "z")))
+        (dolist (variable (list x y z))
+          (z3:solver-assert solver (z3:less 1 variable)))
+        (z3:solver-assert solver (z3:equals (power x 5) (z3:sum (list (power y 3) (power z 3) 7))))
+        (z3:solver-assert solver (z3:less 1000 z))
+        (z3:solver-assert solver (z3:less y z))
+        (is (string= "timeout" (handler-case (z3:check solver)
+                                 (z3:solver-unknown (condition)
+                                   (z3:solver-unknown-reason condition)))))))))
+
 ;;; The raw functions
 
 (defmacro with-raw-context ((pointer kept) &body body)

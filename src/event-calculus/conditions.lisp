@@ -2,6 +2,9 @@
 
 (in-package #:discrepancy-finder.event-calculus)
 
+(defvar *exact-names* nil
+  "True if names are to be shown by their characters, as .e files have them.")
+
 (define-condition event-calculus-error (error)
   ()
   (:documentation "Root of the errors in theories and in questions to them."))
@@ -16,12 +19,16 @@ move-leaves\", or NIL.")
    (reason :initarg :reason :reader theory-error-reason
            :documentation "What is wrong, as a string without a full stop.")
    (position :initarg :position :initform nil :reader theory-error-position
-             :documentation "The source position of sub-form, axiom or clause, or NIL."))
+             :documentation "The source position of sub-form, axiom or clause, or NIL.")
+   (exact-names :initarg :exact-names :initform nil :reader theory-error-exact-names
+                :documentation "True if the theory was read from a .e file, whose names have
+upper and lower case."))
   (:report (lambda (condition stream)
-             (with-slots (theory axiom form reason position) condition
-               (format stream "~@[~a: ~]theory ~a~@[, ~a~]~@[, in ~a~]: ~a."
-                       (and position (princ-to-string position))
-                       (formula-text theory) axiom (and form (formula-text form)) reason))))
+             (with-slots (theory axiom form reason position exact-names) condition
+               (let ((*exact-names* exact-names))
+                 (format stream "~@[~a: ~]theory ~a~@[, ~a~]~@[, in ~a~]: ~a."
+                         (and position (princ-to-string position))
+                         (formula-text theory) axiom (and form (formula-text form)) reason)))))
   (:documentation "Signaled when a theory is not well-formed.  The report names file and line where
 known, the axiom, the sub-form and what was expected."))
 

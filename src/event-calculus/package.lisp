@@ -52,7 +52,7 @@ them and why, and what they say of a state after known events.")
    #:state-predecessor #:state-happenings #:state-exact-p #:state-limits #:state-determined-p
    #:number-value #:state-numbers
    #:state-propositions #:state-in-model #:same-future-p #:ground-numeric-p
-   #:order-matters-p #:event-footprint #:formula-footprint
+   #:order-matters-p #:event-footprint #:formula-footprint #:axioms-used
    ;; conditions
    #:event-calculus-error #:theory-error #:theory-error-theory #:theory-error-axiom
    #:theory-error-reason

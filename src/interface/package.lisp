@@ -13,16 +13,19 @@
                     (#:arguments #:command-line-arguments))
   (:import-from #:discrepancy-finder.event-calculus
                 #:define-theory #:load-theory #:find-theory #:define-state-constraint
-                #:load-e-theory #:save-e-theory #:write-e-theory
+                #:load-e-theory #:read-e-theory #:save-e-theory #:write-e-theory
                 #:make-reasoner #:close-reasoner #:with-reasoner #:extend-horizon
                 #:theory #:model #:reasoner #:explanation #:finding
                 #:models #:count-models #:model-fluents #:model-events #:model-literals
+                #:model-number
                 #:possible-p #:consistent-p #:entailed-p #:consequences #:abduce
                 #:why #:why-impossible #:why-inconsistent #:explanation-core
                 #:explanation-sentences #:explanation-axioms
-                #:check-theory #:finding-severity #:finding-text
+                #:check-theory #:finding-severity #:finding-text #:finding-kind
+                #:finding-subject #:finding-position
                 #:event-calculus-error #:theory-error #:theory-not-found #:unknown-atom
-                #:state-constraint-not-found #:no-horizon #:outside-horizon #:e-file-error)
+                #:state-constraint-not-found #:no-horizon #:outside-horizon #:closed-reasoner
+                #:e-file-error)
   (:import-from #:discrepancy-finder.plan-language
                 #:load-plan #:plan-error #:plan-not-found #:malformed-plan-form
                 #:designator-not-understood #:not-in-top-level #:nested-top-level #:deadlock)
@@ -31,6 +34,9 @@
   (:import-from #:discrepancy-finder.symbolic-execution
                 #:define-action #:region-of #:value-of #:truth-of #:exploration #:exploration-traces
                 #:exploration-complete-p #:exploration-paths #:exploration-gaps
+                #:exploration-statistics #:stop-exploring
+                #:verification #:verification-verdict #:verification-counterexample
+                #:verification-problem #:verification-bounds
                 #:trace-initial-state #:trace-steps #:trace-final-state #:execution-trace
                 #:plan-broke
                 #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
@@ -60,16 +66,20 @@
    #:define-abstraction #:define-action #:region-of #:value-of #:truth-of #:load-domain
    #:domain #:load-plan
    ;; questions to theories
-   #:load-e-theory #:save-e-theory #:write-e-theory
+   #:load-e-theory #:read-e-theory #:save-e-theory #:write-e-theory
    #:make-reasoner #:close-reasoner #:with-reasoner #:extend-horizon
    #:theory #:model #:reasoner #:explanation #:finding
-   #:models #:count-models #:model-fluents #:model-events #:model-literals
+   #:models #:count-models #:model-fluents #:model-events #:model-literals #:model-number
    #:possible-p #:consistent-p #:entailed-p #:consequences #:abduce
    #:why #:why-impossible #:why-inconsistent #:explanation-core #:explanation-sentences
-   #:explanation-axioms #:check-theory #:finding-severity #:finding-text
+   #:explanation-axioms
+   #:check-theory #:finding-severity #:finding-text #:finding-kind #:finding-subject
+   #:finding-position
    ;; symbolic execution
    #:explore-plan #:exploration #:exploration-traces #:exploration-complete-p
-   #:exploration-paths #:exploration-gaps
+   #:exploration-paths #:exploration-gaps #:exploration-statistics #:stop-exploring
+   #:verify-plan #:verification #:verification-verdict #:verification-counterexample
+   #:verification-problem #:verification-bounds
    #:execution-trace #:trace-initial-state #:trace-steps #:trace-final-state
    ;; projection
    #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
@@ -83,7 +93,7 @@
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
-   #:unknown-atom #:no-horizon #:outside-horizon #:e-file-error
+   #:unknown-atom #:no-horizon #:outside-horizon #:closed-reasoner #:e-file-error
    #:plan-error #:plan-not-found #:malformed-plan-form #:designator-not-understood
    #:not-in-top-level #:nested-top-level #:deadlock
    #:malformed-designator #:unknown-designator-key

@@ -10,20 +10,28 @@
 
 (discrepancy:use-data-directories (list (asdf:system-source-directory "discrepancy-finder")))
 
-(defun explore-plan (plan &rest options &key domain constraint arguments max-paths max-steps
-                                          max-jumps)
+(defun explore-plan (plan &rest options &key domain &allow-other-keys)
   "Return an EXPLORATION that has found every trace of PLAN (a symbol) in DOMAIN (a domain or its
-name) on which the state constraint named CONSTRAINT (NIL: the theory's only one) comes true, and
-the list of these traces; DESCRIBE shows them in full.  ARGUMENTS is a list of (parameter boolean),
-the plan's symbolic arguments; MAX-PATHS, MAX-STEPS (performs on a path) and MAX-JUMPS (iterations
-of loops and retries on a path) bound the search.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
-STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM, NONDETERMINISTIC-PLAN, PLAN-BROKE, ACTION-PROBLEM,
-SOLVER-UNKNOWN."
-  (declare (ignore constraint arguments max-paths max-steps max-jumps))
+name) on which the state constraint :CONSTRAINT (a name, a formula; NIL: the theory's only one)
+comes true, and the list of these traces; DESCRIBE shows them in full.  :ARGUMENTS is a list of
+(parameter type), the plan's symbolic arguments.  See SYMBOLIC-EXECUTION:MAKE-EXPLORATION for these
+and the other options: :TRACES :ORDER :SEED :MAX-PATHS :MAX-STEPS :MAX-JUMPS :MAX-SECONDS
+:INTERLEAVINGS :FILE-OUTPUT :PROGRESS ....  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
+STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM, NONDETERMINISTIC-PLAN, PLAN-BROKE, ACTION-PROBLEM; the
+restart STOP-EXPLORING returns what was found so far."
   (let ((exploration (apply #'symbolic:explore-plan (plan:plan-name (discrepancy:ensure-plan plan))
                             :domain (discrepancy:ensure-domain domain)
                             (alexandria:remove-from-plist options :domain))))
     (values exploration (exploration-traces exploration))))
+
+(defun verify-plan (plan &rest options &key domain &allow-other-keys)
+  "Return a VERIFICATION whether PLAN (a symbol) has the safety property :PROPERTY in DOMAIN (a
+domain or its name) on all paths: a formula over ?time, the name of a state constraint, (:never
+constraint), :NO-FAILURE or :NO-ERROR; DESCRIBE shows a counterexample in full.  The other options
+are those of EXPLORE-PLAN but :CONSTRAINT and :TRACES, and it signals the same."
+  (apply #'symbolic:verify-plan (plan:plan-name (discrepancy:ensure-plan plan))
+         :domain (discrepancy:ensure-domain domain)
+         (alexandria:remove-from-plist options :domain)))
 
 (defun demo (&key (seed 1) (stream *standard-output*) (command "./discrepancy-finder"))
   "Run both variants of Example 1 with SEED, print their reports and what one sees to STREAM, and

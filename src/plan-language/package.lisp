@@ -18,8 +18,8 @@ perform.")
    ;; plans and their sources
    #:def-cram-function #:def-top-level-cram-function #:def-plan
    #:plan #:plan-name #:plan-lambda-list #:plan-body #:plan-documentation #:plan-position
-   #:plan-top-level-p #:find-plan #:current-plan-name #:plan-source #:method-source #:load-plan
-   #:*closure-evaluator* #:ensure-top-level
+   #:plan-top-level-p #:find-plan #:current-plan-name #:plan-source #:plans-in-files
+   #:method-source #:load-plan #:*closure-evaluator* #:ensure-top-level
    ;; goals
    #:declare-goal #:def-goal #:succeed #:register-goal #:describe-goal
    ;; top-levels

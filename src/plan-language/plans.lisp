@@ -64,6 +64,15 @@ DISCREPANCY-FINDER-USER.  Signals PLAN-NOT-FOUND."
         (plan-of (find-symbol (symbol-name name) '#:discrepancy-finder-user))
         (error 'plan-not-found :name name))))
 
+(defun plans-in-files (files)
+  "Return the list of the plans and helpers that are defined in one of FILES, strings as positions
+have them, and are not out of date; in no particular order."
+  (loop for plan being the hash-values of *plans*
+        when (and (plan-position plan)
+                  (member (source:source-position-file (plan-position plan)) files :test #'equal)
+                  (eq plan (plan-source (plan-name plan))))
+          collect plan))
+
 (defun record-plan (plan)
   (unless (or (plan-helper-p plan) (eq *noted-plans* :none))
     (push plan *noted-plans*))

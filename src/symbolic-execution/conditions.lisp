@@ -88,3 +88,11 @@ trace cannot be written as JSON."))
   (:report (lambda (condition stream)
              (format stream "There is no domain named ~(~a~)." (domain-not-found-name condition))))
   (:documentation "Signaled when a domain is asked for that was never defined."))
+
+(define-condition coverage-not-recorded (symbolic-execution-error)
+  ((plan :initarg :plan :reader coverage-not-recorded-plan :documentation "The plan's name."))
+  (:report (lambda (condition stream)
+             (format stream "The coverage of ~(~a~) was not recorded: explore it with :coverage t."
+                     (coverage-not-recorded-plan condition))))
+  (:documentation "Signaled when the coverage of an exploration is asked for that did not record
+it."))

@@ -41,6 +41,11 @@
    #:symbolic-number #:symbolic-number-term #:symbolic-number-type
    #:symbolic-element #:symbolic-element-choices
    #:*number-limit* #:function-kind #:lifted-function #:make-symbolic-argument
+   ;; coverage
+   #:coverage #:coverage-forms #:coverage-outcomes #:coverage-axioms #:coverage-figures
+   #:covered-form #:covered-form-form #:covered-form-position #:covered-form-state
+   #:never-taken-outcomes #:never-exercised-axioms #:print-coverage #:write-coverage-html
+   #:coverage-not-recorded
    ;; conditions
    #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
    #:action-problem #:domain-not-found #:invalid-trace #:invalid-trace-reason

@@ -15,6 +15,9 @@
         (concatenate 'handles (nreverse (mapcar #'tracked-literal tracked)) assumed)
         assumed)))
 
+(defvar *timeout* nil
+  "The time (s) that a check may take, or NIL for any.")
+
 (defun check-in-z3 (solver assumed assumptions &optional asker)
   "Make the check, with the assumptions at the addresses ASSUMED, which are ASSUMPTIONS, of the
 clause set ASKER if they are numbers.  Return :SAT, :UNSAT, or :UNKNOWN and the reason."
@@ -43,7 +46,8 @@ clause set ASKER if they are numbers.  Return :SAT, :UNSAT, or :UNKNOWN and the 
                          ((= answer -1) :unsat)
                          (t (values :unknown
                                     (decode (z3-solver-get-reason-unknown
-                                             pointer address))))))))))
+                                             pointer address)))))))))
+         *timeout*)
       (cond ((eq reason :closed) (misuse :closed-solver "the solver is closed"))
             ((consp reason) (signal-z3-error (car reason) (cdr reason))))
       (case answer
@@ -89,14 +93,6 @@ clause set ASKER if they are numbers.  Return :SAT, :UNSAT, or :UNKNOWN and the 
 
 ;;; Checks until there is an answer
 
-(defun check-for (solver ask timeout)
-  "Call ASK, which makes one check of SOLVER, so that it ends after TIMEOUT seconds."
-  (if (eql timeout (solver-timeout solver))
-      (funcall ask)
-      (unwind-protect (progn (configure-solver solver timeout)
-                             (funcall ask))
-        (configure-solver solver (solver-timeout solver)))))
-
 (defun read-timeout ()
   "Ask the user for the argument of RETRY-WITH-TIMEOUT."
   (loop
@@ -111,7 +107,7 @@ clause set ASKER if they are numbers.  Return :SAT, :UNSAT, or :UNKNOWN and the 
 SOLVER-UNKNOWN, with its restarts, when there is none."
   (let ((timeout (solver-timeout solver)))
     (loop
-      (multiple-value-bind (answer reason) (check-for solver ask timeout)
+      (multiple-value-bind (answer reason) (let ((*timeout* timeout)) (funcall ask))
         (unless (eq answer :unknown)
           (return answer))
         (restart-case (error 'solver-unknown :solver solver :reason reason)

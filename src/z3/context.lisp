@@ -24,11 +24,13 @@
   ;; NIL: nobody; a thread: it is inside of a check (:STARTING just before); :INTERRUPTING: it is,
   ;; and the watcher is telling Z3 to stop; :CLOSED: the context was deleted.
   (checker nil :type t)
-  ;; Whether the watcher told Z3 to stop.
-  (interrupted nil :type boolean)
-  ;; When the check began, how long it is left alone, how many there were, how long they took (ns).
+  ;; Why the watcher told Z3 to stop, or NIL.
+  (stopped nil :type (member nil :interrupt :timeout))
+  ;; When the check began, how long it is left alone by interrupts, how long it may take, how many
+  ;; there were, how long they took (ns).
   (started 0 :type (unsigned-byte 62))
   (patience 0 :type (unsigned-byte 62))
+  (time-limit most-positive-fixnum :type (unsigned-byte 62))
   (check-count 0 :type (unsigned-byte 62))
   (check-time 0 :type (unsigned-byte 62)))
 

@@ -1,4 +1,4 @@
-;;;; Leaving a check when its thread is interrupted.
+;;;; Leaving a check when its thread is interrupted or its time is over.
 ;;;;
 ;;;; A check can take hours, and nothing may unwind through Z3's frames.  So the check runs without
 ;;;; interrupts, in the calling thread, and announces itself in its foreign context.  Meanwhile one
@@ -7,6 +7,9 @@
 ;;;; the interrupt runs, in Lisp.  If it returns, too (CONTINUE in the debugger), the check is made
 ;;;; again from the start; with each repetition the watcher's patience doubles, so that frequent
 ;;;; timers delay a long check but cannot prevent its end.
+;;;;
+;;;; Timeouts are the watcher's business, too: the timer of libz3 4.8.12 can end in a deadlock of the
+;;;; checking thread, which nothing but SIGKILL ends, and doubles the time of a small check.
 ;;;;
 ;;;; The watcher is started by a check and ends after a second without one, or before an image is
 ;;;; saved.  Entry point: CALL-INTERRUPTIBLY.
@@ -32,21 +35,28 @@ INTERRUPT-THREAD is queued there; a signal that comes directly only sets the oth
   (or (sb-thread::thread-interruptions thread)
       (sb-thread:symbol-value-in-thread 'sb-unix::*interrupt-pending* thread nil)))
 
-(defun stop-if-interrupted (foreign)
-  "Stop the check in FOREIGN if its thread has been interrupted.  Return true if there is a check."
+(defun reason-to-stop (foreign thread)
+  "Return why the check in FOREIGN, made by THREAD, should end now, or NIL."
+  (let ((age (- (foreign:monotonic-nanoseconds) (foreign-context-started foreign))))
+    (cond ((and (>= age (foreign-context-patience foreign)) (interrupt-waits-p thread))
+           :interrupt)
+          ((>= age (foreign-context-time-limit foreign)) :timeout))))
+
+(defun stop-if-needed (foreign)
+  "Stop the check in FOREIGN if its thread has been interrupted or its time is over.  Return true if
+there is a check."
   (let ((thread (foreign-context-checker foreign)))
     (when (typep thread 'sb-thread:thread)
-      (when (and (>= (- (foreign:monotonic-nanoseconds) (foreign-context-started foreign))
-                     (foreign-context-patience foreign))
-                 (interrupt-waits-p thread))
-        (sb-sys:without-interrupts
-          ;; From here on the check cannot return and so the context cannot be deleted.
-          (when (eq (sb-ext:compare-and-swap (foreign-context-checker foreign)
-                                             thread :interrupting)
-                    thread)
-            (setf (foreign-context-interrupted foreign) t)
-            (z3-interrupt (foreign-context-pointer foreign))
-            (setf (foreign-context-checker foreign) thread))))
+      (let ((reason (reason-to-stop foreign thread)))
+        (when reason
+          (sb-sys:without-interrupts
+            ;; From here on the check cannot return and so the context cannot be deleted.
+            (when (eq (sb-ext:compare-and-swap (foreign-context-checker foreign)
+                                               thread :interrupting)
+                      thread)
+              (setf (foreign-context-stopped foreign) reason)
+              (z3-interrupt (foreign-context-pointer foreign))
+              (setf (foreign-context-checker foreign) thread)))))
       t)))
 
 (defun look-after-checks ()
@@ -55,7 +65,7 @@ changes whenever a check is made."
   (let ((running nil) (count 0))
     (dolist (foreign **open-contexts** (values running count))
       (incf count (foreign-context-check-count foreign))
-      (when (stop-if-interrupted foreign)
+      (when (stop-if-needed foreign)
         (setf running t)))))
 
 (defun retire-watcher ()
@@ -100,12 +110,13 @@ if it is over."
 
 ;;; The check's side
 
-(defun announce-check (foreign patience)
+(defun announce-check (foreign patience time-limit)
   "Tell the watcher that this thread begins a check in FOREIGN.  Return true if nobody else is in
 one."
   (when (null (sb-ext:compare-and-swap (foreign-context-checker foreign) nil :starting))
-    (setf (foreign-context-interrupted foreign) nil
+    (setf (foreign-context-stopped foreign) nil
           (foreign-context-patience foreign) patience
+          (foreign-context-time-limit foreign) time-limit
           (foreign-context-started foreign) (foreign:monotonic-nanoseconds))
     (incf (foreign-context-check-count foreign))
     (setf (foreign-context-checker foreign) sb-thread:*current-thread*)
@@ -113,6 +124,12 @@ one."
     (unless **watcher**
       (start-watcher))
     t))
+
+(defun time-limit (seconds)
+  "Return SECONDS, a real or NIL for ever, in nanoseconds."
+  (if seconds
+      (min most-positive-fixnum (ceiling (* 1000000000 (rational seconds))))
+      most-positive-fixnum))
 
 (defun end-check (foreign)
   "Tell the watcher that the check in FOREIGN is over, once it has its hands off it."
@@ -123,24 +140,27 @@ one."
                   sb-thread:*current-thread*)
         do (sb-thread:thread-yield)))
 
-(defun call-interruptibly (context function)
+(defun call-interruptibly (context function timeout)
   "Call FUNCTION, which makes one check in CONTEXT, without interrupts; return its two values, of
-which the first is :UNKNOWN if Z3 gave no answer.  If an interrupt came, it runs after the call; if
-it returns, and Z3 gave no answer, FUNCTION is called again.  Signals Z3-ERROR if CONTEXT is in
-use by another thread."
+which the first is :UNKNOWN if Z3 gave no answer.  After TIMEOUT seconds (NIL: never) it is stopped
+within a fiftieth of a second, and the second value is \"timeout\".  If an interrupt came, it runs
+after the call; if it returns, and Z3 gave no answer, FUNCTION is called again.  Signals Z3-ERROR if
+CONTEXT is in use by another thread."
   (loop with foreign = (context-foreign context)
+        with time-limit = (time-limit timeout)
         ;; Where the caller has shut out interrupts they are shut out of the check, too.
         for patience = (if sb-sys:*interrupts-enabled* 0 most-positive-fixnum)
           then (max +poll-interval+ (* 2 patience))
         do (multiple-value-bind (answer reason)
                (sb-sys:without-interrupts
-                 (if (announce-check foreign patience)
+                 (if (announce-check foreign patience time-limit)
                      (unwind-protect (funcall function)
                        (end-check foreign))
                      (foreign-context-checker foreign)))
              (case answer
                (:closed (misuse :closed-context "the context is closed"))
                ((:sat :unsat) (return answer))
-               (:unknown (unless (foreign-context-interrupted foreign)
-                           (return (values answer reason))))
+               (:unknown (case (foreign-context-stopped foreign)
+                           ((nil) (return (values answer reason)))
+                           (:timeout (return (values answer "timeout")))))
                (t (misuse :busy-context "the context is in use by another thread"))))))

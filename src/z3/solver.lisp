@@ -65,11 +65,6 @@ for it, one reference of which it owns, and its index in the record."
 
 ;;; Life
 
-(defun timeout-milliseconds (seconds)
-  "Return SECONDS, a real or NIL for ever, as Z3 has it."
-  (let ((longest (1- (expt 2 32))))
-    (if seconds (min longest (max 1 (ceiling (* 1000 seconds)))) longest)))
-
 (defun set-options (solver options)
   "Set OPTIONS, an alist from names to values, as MAKE-SOLVER has them, in SOLVER."
   (calling-solver (pointer address solver)
@@ -87,14 +82,6 @@ for it, one reference of which it owns, and its index in the record."
                                                      (z3-mk-string-symbol pointer text))))))))
       (z3-params-dec-ref pointer (prog1 parameters
                                    (z3-solver-set-params pointer address parameters))))))
-
-(defun configure-solver (solver timeout &optional options)
-  "Let the checks of SOLVER end after TIMEOUT seconds (a real, or NIL for no limit); set OPTIONS."
-  (set-options solver
-               (list* (cons "timeout" (timeout-milliseconds timeout))
-                      ;; Z3 would put its own handler of SIGINT in the place of SBCL's.
-                      (cons "ctrl_c" nil)
-                      options)))
 
 (defun make-solver (context &key (logic "QF_FD") timeout seed options)
   "Return a new SOLVER in CONTEXT.  LOGIC is the name of an SMT-LIB logic, which picks Z3's engine,
@@ -123,8 +110,10 @@ found out by the first assertion or check."
                         (let ((record (z3-mk-ast-vector pointer)))
                           (z3-ast-vector-inc-ref pointer record)
                           (%make-solver context address record timeout))))))))
-    (configure-solver solver timeout
-                      (if seed (acons "random_seed" seed options) options))
+    (set-options solver
+                 ;; Z3 would put its own handler of SIGINT in the place of SBCL's.
+                 (acons "ctrl_c" nil
+                        (if seed (acons "random_seed" seed options) options)))
     solver))
 
 (defun forget-answer (solver)

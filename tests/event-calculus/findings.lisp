@@ -284,3 +284,19 @@ and return the findings."
     (let ((findings (ec:check-theory
                      (ec:load-theory (root-file (format nil "tests/theories/~a.lisp" name))))))
       (is (null (remove :note findings :key #'ec:finding-severity)) "~a: ~a" name findings))))
+
+(test axioms-without-instances
+  "Each instance has a member of another sort in a place, or a time that is not there."
+  (let ((findings (ec:check-theory (ec:parse-e-text "sort agent
+sort room
+agent A
+room B
+predicate In(agent,room)
+[agent] In(agent,B).
+In(A,A).
+range time 0 1"))))
+    (is (equal '((:warning :no-instance))
+               (mapcar (lambda (finding)
+                         (list (ec:finding-severity finding) (ec:finding-kind finding)))
+                       findings)))
+    (finding-words (first findings) "text:7 says nothing")))

@@ -99,3 +99,22 @@
   (signals-with (ec:theory-error "huge" "above" "instances")
     (ec::parse-theory 'huge '((:sorts (height (:range 0 1000000000000)))
                               (:fluents (above height height)) (:time 0 1)))))
+
+(test what-would-exhaust-the-heap-is-refused
+  (flet ((refused (words theory)
+           (is (search words (report-of 'ec:theory-error (lambda () (ec:consistent-p theory)))))))
+    (refused "the timepoints 0 to 100000000 need some"
+             (inline-theory (:fluents (on)) (:axioms (lit (holds-at (on) ?time)))
+               (:time 0 100000000)))
+    (refused "axiom swapped: it has more than 1000000 instances"
+             (inline-theory (:sorts (number (:range 0 99)))
+               (:predicates (near number number))
+               (:axioms (swapped (implies (and (near ?number1 ?number2) (near ?number3 ?number4))
+                                          (= ?number1 ?number4))))
+               (:time 0 1)))))
+
+(test long-atoms-are-told-apart-quickly
+  "EQUAL tables of SBCL look at four elements of a list only."
+  (is (< 900 (length (remove-duplicates
+                      (loop for number below 1000
+                            collect (ec::term-hash (list :p 0 0 0 0 number))))))))

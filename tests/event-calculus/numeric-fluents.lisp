@@ -347,3 +347,19 @@ function VALUE-AT says of the model and each timepoint."
     (is (null (set-exclusive-or '(:starting :climb :ground :started)
                                 (ec:explanation-axioms
                                  (ec:why theory '(= (value-at (height) 2) 2))))))))
+
+(test numbers-in-state-formulas
+  "In goals and INITIALLY the number is that at the time in question."
+  (let ((theory (inline-theory
+                  (:numeric-fluents (level)) (:events (fill))
+                  (:axioms (empty-at-first (initially (= (value-at (level)) 1)))
+                           (filling (assigns (fill) (level) (+ (value-at (level) ?time) 2) ?time)))
+                  (:time 0 5))))
+    (is (= 1 (ec:model-number (first (ec:models theory :limit 1)) '(level) 0)))
+    (is (equal '((((:fill)) ((:fill))))
+               (ec:abduce theory '(= (value-at (level)) 5))))
+    (is (search "a time cannot stand here"
+                (report-of 'ec:theory-error
+                           (lambda () (ec:abduce theory '(= (value-at (level) 3) 5))))))
+    (is (search "(value-at (level)) was expected"
+                (report-of 'ec:theory-error (lambda () (ec:abduce theory '(= (level) 5))))))))

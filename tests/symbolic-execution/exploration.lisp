@@ -176,6 +176,15 @@
              (is-true (symbolic:exploration-complete-p exploration)))
         (symbolic:close-exploration exploration)))))
 
+(test a-plan-that-performs-something-else-is-reported-with-its-places
+  (setf *runs* 0)
+  (signals-with (symbolic:nondeterministic-plan ":4: (a motion (type smashing) (lamp b))"
+                                                ":3: (a motion (type toggling) (lamp a))")
+    (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (if (= 1 (discrepancy-finder.tests::count-a-run)) (perform (a motion (type toggling) (lamp a)))
+      (perform (a motion (type smashing) (lamp b)))))" :constraint 'anything)))
+
 (test a-replay-that-ends-early-is-reported
   (setf *runs* 0)
   (signals-with (symbolic:nondeterministic-plan "its end")

@@ -9,7 +9,7 @@
 (define-theory switches
   (:sorts (switch a b c))
   (:fluents (on switch) (jammed switch) (power))
-  (:events (press switch) (jam switch) (copy switch switch))
+  (:events (press switch) (jam switch) (copy switch switch) (inspect switch))
   (:axioms
    (press-on (implies (and (not (holds-at (on ?switch) ?time)))
                       (initiates (press ?switch) (on ?switch) ?time)))
@@ -36,7 +36,10 @@
   (:domain switches)
   (:event (press switch))
   (:requires (not (jammed switch)))
-  (:failure gripper-goal-not-reached :event (jam switch))
+  (:failure gripper-goal-not-reached :event (jam switch)))
+(define-action (motion reading) (switch)
+  (:domain switches)
+  (:event (inspect switch))
   (:returns (truth-of (on switch))))
 (define-action (motion jamming) (switch)
   (:domain switches)
@@ -131,6 +134,12 @@ return the numbers of their paths."
     (par (perform (a motion (type pressing) (switch a)))
          (perform (a motion (type jamming) (switch a))))))"))
       "one requires that the other does not happen")
+  (is (< 3 (check-pruning "
+(def-top-level-cram-function switch-plan ()
+  (par (perform (a motion (type pressing) (switch a)))
+       (when (perform (a motion (type reading) (switch a)))
+         (perform (a motion (type copying) (from c) (to c))))))"))
+      "what perform returns is looked at")
   (is (= 2 (check-pruning "
 (def-top-level-cram-function switch-plan ()
   (par (perform (a motion (type jamming) (switch c)))
@@ -192,7 +201,7 @@ return the numbers of their paths."
 (defun random-switch (state)
   (elt #("a" "b" "c") (random 3 state)))
 
-(defun random-perform (state)
+(defun random-switching (state)
   (case (random 4 state)
     (0 (format nil *handled* (format nil "(perform (a motion (type pressing) (switch ~a)))"
                                      (random-switch state))))
@@ -205,9 +214,9 @@ return the numbers of their paths."
   (format nil "(progn ~{~a~^ ~})"
           (loop repeat count
                 collect (case (random 6 state)
-                          (0 (format nil "(progn (setf x (not x)) ~a)" (random-perform state)))
-                          (1 (format nil "(if x ~a)" (random-perform state)))
-                          (t (random-perform state))))))
+                          (0 (format nil "(progn (setf x (not x)) ~a)" (random-switching state)))
+                          (1 (format nil "(if x ~a)" (random-switching state)))
+                          (t (random-switching state))))))
 
 (defun random-parallel-plan (state)
   (format nil "
@@ -219,7 +228,7 @@ return the numbers of their paths."
       ~a)))"
           (elt #("par" "par" "pursue" "try-all") (random 4 state))
           (random-branch state (1+ (random 2 state))) (random-branch state 1)
-          (random-perform state)))
+          (random-switching state)))
 
 (test pruning-loses-nothing-on-random-plans
   (make-switches)

@@ -335,3 +335,26 @@ the numbers of paths and of concrete runs."
         (is (null disagreement) "plan ~d: ~a~%~a" seed disagreement (random-plan-text seed))))
     (is (< 3000 paths))
     (is (< 50000 runs))))
+
+(test random-plans-in-any-order-with-a-forgetful-oracle
+  "Orders, and contexts of Z3 that are given up all the time, change nothing."
+  (load-gadgets)
+  (dotimes (seed 20)
+    (with-file (file (random-plan-text seed))
+      (let ((*error-output* (make-broadcast-stream)))
+        (handler-bind ((warning #'muffle-warning)) (plan:load-plan file))))
+    (flet ((keys (&rest options)
+             (call-from-scratch
+              (lambda ()
+                (mapcar (lambda (trace) (list* (trace-signature trace)
+                                               (symbolic::trace-key trace)))
+                        (apply #'whole-traces options)))))
+           (same-p (some others)
+             (null (set-exclusive-or some others :test #'equal))))
+      (let ((expected (keys)))
+        (is-true (same-p expected (keys :order :breadth-first)))
+        (is-true (same-p expected (keys :order :random :seed seed)))
+        (is-true (same-p expected (keys :order :coverage)))
+        (let ((symbolic::*oracle-load* 3))
+          (is (equal expected (keys)))
+          (is-true (same-p expected (keys :order :breadth-first))))))))

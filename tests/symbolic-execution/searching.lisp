@@ -98,9 +98,8 @@
     (is-false (symbolic:exploration-complete-p unable))
     (is (search "Z3 could not answer" (format nil "~{~a ~}" (symbolic:exploration-gaps unable)))))
   (signals z3:solver-unknown
-    (handler-bind ((z3:solver-unknown (lambda (condition) (error condition))))
-      (explore-text *eight-paths* :constraint 'anything :arguments *three-flags*
-                                  :solver-options '(("rlimit" . 1))))))
+    (explore-text *eight-paths* :constraint 'anything :arguments *three-flags*
+                                :on-unknown :signal :solver-options '(("rlimit" . 1)))))
 
 (test statistics-add-up
   (let* ((exploration (explore-text *eight-paths* :constraint 'anything
@@ -160,6 +159,7 @@
 
 (defvar *table* (make-hash-table))
 (defvar *cell* (list 1 2 3))
+(defvar *vector* (make-array 3 :initial-contents '(1 2 3) :adjustable t :fill-pointer t))
 
 (defun counts-on-each-path (form)
   "Return what FORM, which changes something, gives on each of two paths."
@@ -178,13 +178,28 @@
                   "(incf discrepancy-finder.tests::*counter*)"
                   "(progn (makunbound 'discrepancy-finder.tests::*counter*)
                           (setq discrepancy-finder.tests::*counter* 1))"
+                  "(incf (gethash :key discrepancy-finder.tests::*table* 0))"
+                  "(progn (push 1 (gethash :list discrepancy-finder.tests::*table*))
+                          (length (gethash :list discrepancy-finder.tests::*table*)))"
+                  "(incf (second discrepancy-finder.tests::*cell*))"
+                  "(progn (push 0 (cdr discrepancy-finder.tests::*cell*))
+                          (princ-to-string discrepancy-finder.tests::*cell*))"
+                  "(princ-to-string (setf discrepancy-finder.tests::*cell*
+                                          (nreverse discrepancy-finder.tests::*cell*)))"
+                  "(incf (aref discrepancy-finder.tests::*vector* 1))"
+                  "(vector-push-extend 1 discrepancy-finder.tests::*vector*)"
+                  "(length (setf (symbol-plist 'discrepancy-finder.tests::*cell*)
+                                 (list* 1 2 (symbol-plist 'discrepancy-finder.tests::*cell*))))"
                   "(let ((x 0)) (flet ((count-up () (incf x))) (count-up) (count-up)))"))
     (setf *counter* 0)
     (let ((outputs (counts-on-each-path form)))
       (is (= 2 (length outputs)))
       (is (equal (first outputs) (second outputs)) "~a: ~a" form outputs)
       (is (plusp (length (first outputs))))
-      (is (eql 0 *counter*)))))
+      (is (eql 0 *counter*))
+      (is (= 0 (hash-table-count *table*)))
+      (is (equal '(1 2 3) *cell*))
+      (is (equalp #(1 2 3) *vector*)))))
 
 (test output-belongs-to-its-path
   (let ((exploration (explore-text "

@@ -1,8 +1,8 @@
 ;;;; Symbolic values against brute force.
 ;;;;
-;;;; An expression over symbolic arguments is explored: one run a path.  For each concrete assignment
-;;;; just one path must be possible, and what the expression returns on it, with the assignment's
-;;;; values in the place of symbolic ones, must be what SBCL computes.
+;;;; An expression over symbolic arguments is explored: one run a path.  For each concrete
+;;;; assignment just one path must be possible, and what the expression returns on it, with the
+;;;; assignment's values in the place of symbolic ones, must be what SBCL computes.
 
 (in-package #:discrepancy-finder.tests)
 
@@ -160,9 +160,9 @@ these."
         do (z3:pop-scope solver)))
 
 (defun explore-expression (form &key (arguments (expression-arguments form)))
-  "Explore FORM over ARGUMENTS, those of *EXPRESSION-ARGUMENTS* that it mentions.  Return a list with
-an element for each path, in order: an alist from the assignments that it covers, lists of values,
-to the outcome, as a tree; the list of what was left out; and the arguments."
+  "Explore FORM over ARGUMENTS, those of *EXPRESSION-ARGUMENTS* that it mentions.  Return a list
+with an element for each path, in order: an alist from the assignments that it covers, lists of
+values, to the outcome, as a tree; the list of what was left out; and the arguments."
   (let* ((function (symbolic::interpreted-function-code
                     (symbolic:evaluate
                      `(lambda ,(mapcar #'first arguments)

@@ -79,9 +79,13 @@ what a file means must have a value that has a meaning here."
         when (and (string= (declared-symbol-sort symbol) sort)
                   (not (and (string= sort "predicate")
                             (standard-predicate vocabulary (declared-symbol-name symbol)))))
-          collect (if (declared-symbol-value symbol)
-                      (list signature (e-sort-keyword (declared-symbol-value symbol)))
-                      signature)))
+          collect (let ((statement (declared-symbol-statement symbol)))
+                    (note-position (if (declared-symbol-value symbol)
+                                       (list signature
+                                             (e-sort-keyword (declared-symbol-value symbol)))
+                                       signature)
+                                   (source:make-source-position (statement-file statement)
+                                                                (statement-line statement))))))
 
 (defun check-declared-symbol (vocabulary statement name &rest sorts)
   (unless (some (lambda (sort) (find-declared-symbol vocabulary name sort)) sorts)
@@ -110,12 +114,22 @@ what a file means must have a value that has a meaning here."
                        (e-predicate-keyword vocabulary predicate)))
    :test #'equal :from-end t))
 
+(defun check-one-kind (vocabulary statement)
+  "Check that the names in STATEMENT are all events or all fluents."
+  (destructuring-bind (first . others) (statement-data statement)
+    (flet ((event-p (name) (find-declared-symbol vocabulary name "event")))
+      (dolist (name others)
+        (unless (eq (null (event-p first)) (null (event-p name)))
+          (statement-problem statement "~a is ~:[a fluent~;an event~] and ~a ~:[a fluent~;an event~]"
+                             first (event-p first) name (event-p name)))))))
+
 (defun e-exclusions (vocabulary statements)
   (loop for statement in (statements-of statements :mutex :xor)
         collect (cons (statement-kind statement)
                       (loop for name in (statement-data statement)
                             do (check-declared-symbol vocabulary statement name "event" "fluent")
-                            collect (e-name-keyword name)))))
+                            collect (e-name-keyword name)))
+        do (check-one-kind vocabulary statement)))
 
 (defun check-e-names (vocabulary)
   "Check that no name looks like a word of theories in Lisp when it is a keyword."

@@ -160,7 +160,11 @@ CONSTANTS maps a name to the sorts that declare it; FOUNDATIONS are the loaded o
 (defun integers-range (sort)
   "Return the range of SORT, also if its integers were declared one by one."
   (let ((integers (sort (copy-list (declared-sort-integers sort)) #'<)))
-    (cond ((null integers) (declared-sort-range sort))
+    (cond ((and (declared-sort-range sort) (declared-sort-constants sort))
+           (statement-problem (declared-sort-statement sort)
+                              "the sort ~a has both a range and constants"
+                              (declared-sort-name sort)))
+          ((null integers) (declared-sort-range sort))
           ((or (declared-sort-range sort) (declared-sort-constants sort)
                (/= (length integers) (1+ (- (first (last integers)) (first integers)))))
            (statement-problem (declared-sort-statement sort)

@@ -218,12 +218,17 @@ the language cannot say what the theory says."
     (write-ranges theory names stream)))
 
 (defun save-e-theory (theory file)
-  "Write THEORY as the .e file FILE and return the true name of FILE.  An existing file is replaced
-when all is written.  Signals E-FILE-ERROR and FILE-ERROR."
-  (let* ((path (absolute-path (source:native-path file)))
+  "Write THEORY, a theory or its name, as the .e file FILE and return the true name of FILE.  An
+existing file is replaced when all is written.  Signals E-FILE-ERROR, SOURCE-ERROR,
+FILE-ERROR and THEORY-NOT-FOUND."
+  (let* ((theory (if (theory-p theory) theory (find-theory theory)))
+         (path (absolute-path (source:native-path file)))
          (temporary (make-pathname :type (format nil "~@[~a~].tmp" (pathname-type path))
                                    :defaults path))
          (done nil))
+    (unless (uiop:directory-exists-p (uiop:pathname-directory-pathname path))
+      (error 'source:source-error :file (source:native-name file)
+                                  :reason "there is no folder to put it into"))
     (unwind-protect
          (progn
            (with-open-file (stream temporary :direction :output :if-exists :supersede

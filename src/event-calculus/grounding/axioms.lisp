@@ -8,25 +8,28 @@
 
 ;;; Instances
 
-(defun call-with-instances (ground form variables time-variable filters function)
-  "Call FUNCTION with the compilation for FORM's free VARIABLES; it returns a function that is
+(defun call-with-instances (ground axiom variables time-variable filters function)
+  "Call FUNCTION with the compilation for the free VARIABLES of AXIOM; it returns a function that is
 called with each environment.  TIME-VARIABLE, if any, is bound to 0."
-  (declare (ignore form))
   (multiple-value-bind (compilation level)
       (extend-compilation (make-compilation :ground ground)
                           (if time-variable (cons time-variable variables) variables))
     (let ((environment (make-array +environment-size+ :initial-element nil))
-          (instance (funcall (the function function) compilation)))
+          (instance (funcall (the function function) compilation))
+          (*instances* (cons axiom 0)))
       (when time-variable
         (setf (svref environment (cdr (assoc time-variable (compilation-slots compilation)))) 0))
       (funcall (the function (compile-instances compilation variables filters level))
                (lambda (environment)
+                 (count-instance ground)
                  ;; The timepoint in question is one of the horizon, whatever is said of it.
                  (setf *definitions* '()
                        *span* (if time-variable
                                   (cons 0 0)
                                   (cons most-positive-fixnum most-negative-fixnum)))
-                 (funcall (the function instance) environment))
+                 (funcall (the function instance) environment)
+                 ;; It was not dropped.
+                 (setf (gethash axiom (ground-theory-instantiated ground)) t))
                environment))))
 
 (defun bindings-in (compilation environment variables)
@@ -64,7 +67,7 @@ called with each environment.  TIME-VARIABLE, if any, is bound to 0."
          (variables (remove time-variable
                             (free-variables (list* :implies condition head other-heads)))))
     (call-with-instances
-     ground head variables time-variable (and (consp condition) (conditions-of condition))
+     ground axiom variables time-variable (and (consp condition) (conditions-of condition))
      (lambda (compilation)
        (let* ((numeric (numeric-atom-p theory (third head)))
               (assigns (eq (first head) :assigns))
@@ -107,7 +110,7 @@ called with each environment.  TIME-VARIABLE, if any, is bound to 0."
                                                            :step t))))
          (variables (remove time-variable (free-variables (list :implies condition head)))))
     (call-with-instances
-     ground head variables time-variable (and (consp condition) (conditions-of condition))
+     ground axiom variables time-variable (and (consp condition) (conditions-of condition))
      (lambda (compilation)
        (destructuring-bind (kind cause time change offset) head
          (let* ((numeric (numeric-trajectory-p theory head))
@@ -146,7 +149,7 @@ called with each environment.  TIME-VARIABLE, if any, is bound to 0."
          (variables (remove time-variable (free-variables formula)))
          (sentences '()))
     (call-with-instances
-     ground formula variables time-variable (filters-of formula t)
+     ground axiom variables time-variable (filters-of formula t)
      (lambda (compilation)
        (let ((function (compile-formula compilation formula)))
          (declare (type function function))

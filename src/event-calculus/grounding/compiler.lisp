@@ -44,6 +44,34 @@ places in the environment."
 (defun compilation-theory (compilation)
   (ground-theory-theory (compilation-ground compilation)))
 
+;;; Counting
+
+(defvar *instances* nil
+  "What is being made ground, an axiom or a text, and the number of instances so far; or NIL.")
+(declaim (type list *instances*))
+
+(defun heap-nearly-full-p ()
+  "Return true if the heap is so full that a garbage collection might not find room to copy into."
+  (flet ((full-p ()
+           (> (sb-kernel:dynamic-usage) (* 2/5 (sb-ext:dynamic-space-size)))))
+    (and (full-p)
+         (progn (sb-ext:gc :full t)
+                (full-p)))))
+
+(defun count-instance (ground)
+  "Count an instance of a quantifier.  Signals THEORY-ERROR if there are too many or the heap, whose
+exhaustion would end Lisp, is nearly full."
+  (when *instances*
+    (let ((count (incf (the fixnum (cdr *instances*)))))
+      (flet ((problem (control &rest arguments)
+               (apply #'theory-problem (ground-theory-theory ground) (car *instances*) nil control
+                      arguments)))
+        (when (> count +most-instances+)
+          (problem "it has more than ~d instances" +most-instances+))
+        (when (and (zerop (mod count 10000)) (heap-nearly-full-p))
+          (problem "~d instances of it fill the heap of ~d MB" count
+                   (floor (sb-ext:dynamic-space-size) 1000000)))))))
+
 (defun extend-compilation (compilation variables)
   "Return COMPILATION inside of a quantifier of VARIABLES, and the level."
   (let* ((slots (compilation-slots compilation))

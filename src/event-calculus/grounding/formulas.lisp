@@ -202,7 +202,8 @@ VARIABLES in the environment that passes FILTERS.  A THROW to the tag of LEVEL s
 (defun compile-quantifier (compilation form)
   (destructuring-bind (quantifier variables body) form
     (multiple-value-bind (inner level) (extend-compilation compilation variables)
-      (let* ((universal (eq quantifier :forall))
+      (let* ((ground (compilation-ground compilation))
+             (universal (eq quantifier :forall))
              (instances (compile-instances inner variables (filters-of body universal) level))
              (body (compile-formula inner body)))
         (declare (type function instances body))
@@ -210,6 +211,7 @@ VARIABLES in the environment that passes FILTERS.  A THROW to the tag of LEVEL s
           (let ((parts '()))
             (funcall instances
                      (lambda (environment)
+                       (count-instance ground)
                        (push (funcall body environment) parts))
                      environment)
             (fold (if universal :and :or) (nreverse parts))))))))
@@ -251,6 +253,7 @@ it, else distances.  A formula with an argument outside of its sort is NIL."
          (environment (make-array +environment-size+ :initial-element nil))
          (*relative* (null horizon))
          (*horizon* (or horizon *horizon*))
+         (*instances* (cons "a formula" 0))
          (*span* (cons 0 0)))
     (multiple-value-bind (compilation level)
         (extend-compilation (make-compilation :ground ground) (mapcar #'car bindings))

@@ -19,7 +19,7 @@
 (defstruct (atom-table (:constructor make-atom-table ()) (:copier nil))
   "Ground atoms and their numbers."
   (atoms (make-array 16 :adjustable t :fill-pointer 0) :type vector :read-only t)
-  (index (make-hash-table :test 'equal) :type hash-table :read-only t))
+  (index (make-term-table) :type hash-table :read-only t))
 
 (defun intern-atom (table atom)
   "Return the number of the ground ATOM in TABLE, a new one if need be."
@@ -78,7 +78,7 @@ timepoints.  DEFINITIONS are the effect axioms that conditions about effects wer
   (event-index nil :type hash-table :read-only t)
   (predicates (make-atom-table) :type atom-table :read-only t)
   (statics (make-atom-table) :type atom-table :read-only t)
-  (function-values (make-hash-table :test 'equal) :type hash-table :read-only t)
+  (function-values (make-term-table) :type hash-table :read-only t)
   ;; for each event and for each fluent its effects; trajectories by cause
   (effects #() :type simple-vector)
   (effects-on #() :type simple-vector)
@@ -91,6 +91,8 @@ timepoints.  DEFINITIONS are the effect axioms that conditions about effects wer
   (one-event-at-a-time nil :type (or null axiom))
   (initial-conditions '() :type list)
   (sentences '() :type list)
+  ;; the axioms of which not all instances were dropped
+  (instantiated (make-hash-table :test 'eq) :type hash-table :read-only t)
   ;; the clauses (axiom kind condition head) that are made ground for each horizon
   (absolute-clauses '() :type list))
 
@@ -119,7 +121,7 @@ timepoints.  DEFINITIONS are the effect axioms that conditions about effects wer
     copy))
 
 (defun index-table (atoms)
-  (let ((table (make-hash-table :test 'equal)))
+  (let ((table (make-term-table)))
     (loop for atom across atoms for index from 0 do (setf (gethash atom table) index))
     table))
 

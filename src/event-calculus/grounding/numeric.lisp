@@ -1,6 +1,7 @@
 ;;;; Numeric fluents in conditions: comparisons that depend on the state.
 ;;;;
-;;;; (value-at FLUENT TIME) is the number that a numeric fluent has.  A comparison of terms with
+;;;; (value-at FLUENT TIME), in a state formula (value-at FLUENT), is the number that a numeric
+;;;; fluent has.  A comparison of terms with
 ;;;; such values is an atom of its own, (:compare operator term term); Z3 sees one real a fluent and
 ;;;; timepoint.  What is constant is folded here.
 
@@ -27,7 +28,9 @@
                (if (rationalp number) number (funcall drop))))))
         ((eq (first term) :value-at)
          (compile-timed :value (compile-numeric compilation (second term))
-                        (compile-time compilation (third term))))
+                        (if (third term)
+                            (compile-time compilation (third term))
+                            (compile-constant 0))))
         (t (when (eq (first term) :mod)
              (theory-problem (compilation-theory compilation) nil term
                              "there is no remainder of the value of a numeric fluent"))

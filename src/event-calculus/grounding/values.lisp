@@ -54,7 +54,7 @@ new."
          (new nil))
     (multiple-value-bind (condition application value) (value-clause-parts head)
       (call-with-instances
-       ground head (free-variables head) nil (and (consp condition) (conditions-of condition))
+       ground axiom (free-variables head) nil (and (consp condition) (conditions-of condition))
        (lambda (compilation)
          (let ((key (compile-symbol-term compilation application
                                          (first (find-function theory (first application)))))
@@ -75,7 +75,7 @@ new."
 THEORY-ERROR if they contradict each other."
   (let ((theory (ground-theory-theory ground))
         (clauses (remove :value clauses :key #'second :test-not #'eq))
-        (sources (make-hash-table :test 'equal)))
+        (sources (make-term-table)))
     (loop while (plusp (count-if (lambda (clause)
                             (ground-value ground (first clause) (fourth clause) sources))
                                     clauses))

@@ -109,7 +109,7 @@ and where a trajectory leads, may be a numeric fluent."
            (scope-problem scope form "~a is no operator and no predicate~a~:[~;; an axiom is a ~
                                       formula, (name formula) or (name :label label formula)~]"
                           (name-text operator)
-                          (other-kind-text theory form t)
+                          (other-kind-text theory form :in-formula t)
                           (and (axiom-p axiom) (eq form (axiom-formula axiom))
                                (scope-strict-p scope)
                                (null (kind-of-name theory operator))

@@ -8,6 +8,31 @@
 
 (in-package #:discrepancy-finder.event-calculus)
 
+;;; Tables
+
+(defun term-hash (term)
+  "Return a hash of all of TERM.  That of EQUAL tables looks at the first four elements of a list
+only."
+  (declare (optimize speed (safety 1)))
+  (if (consp term)
+      (let ((hash 17))
+        (declare (type (unsigned-byte 62) hash))
+        (loop while (consp term)
+              do (setf hash (sb-int:mix hash (the (unsigned-byte 62) (term-hash (pop term))))))
+        (sb-int:mix hash (sxhash term)))
+      (sxhash term)))
+
+(defun same-term-p (p q)
+  (equal p q))
+
+(sb-ext:define-hash-table-test same-term-p term-hash)
+
+(defun make-term-table ()
+  "Return a hash table whose keys are atoms, terms, formulas or lists of numbers."
+  (make-hash-table :test 'same-term-p))
+
+;;; Texts
+
 (defun plain-name-p (string)
   (and (plusp (length string))
        (notany (lambda (character)
@@ -15,9 +40,6 @@
                      (find character "()|\\\"'`,;# ")
                      (not (graphic-char-p character))))
                string)))
-
-(defvar *exact-names* nil
-  "True if names are to be shown by their characters, as .e files have them.")
 
 (defun name-text (name)
   "Return the text for NAME, a symbol: in lower case if that can be read back."

@@ -79,15 +79,16 @@ VARIABLES is the list of bound variables or :FREE where every variable is allowe
         ((find-function theory name) "a function")
         ((reified-symbol theory name) "a term")))
 
-(defun other-kind-text (theory form &optional (in-formula nil))
+(defun other-kind-text (theory form &key in-formula in-state)
   "Return what to say of FORM, which is of another kind than was expected, or an empty string.
-IN-FORMULA is true if a formula was expected."
+IN-FORMULA is true if a formula was expected, IN-STATE in a formula without times."
   (let* ((name (if (consp form) (first form) form))
          (kind (kind-of-name theory name))
          (atom (formula-text (if (consp form) form (list form)))))
     (cond ((null kind) "")
           ((string= kind "a numeric fluent")
-           (format nil ": ~a is ~a, (value-at ~a time) was expected" (name-text name) kind atom))
+           (format nil ": ~a is ~a, (value-at ~a~:[ time~;~]) was expected" (name-text name) kind
+                   atom in-state))
           ((and in-formula (string= kind "a fluent"))
            (format nil ", but ~a: (holds-at ~a ?time) was expected" kind atom))
           ((and in-formula (string= kind "an event"))
@@ -213,13 +214,14 @@ IN-FORMULA is true if a formula was expected."
     (scope-problem scope term "there is no remainder of the value of a numeric fluent")))
 
 (defun check-value-at (scope term)
-  (when (eq (scope-kind scope) :state)
-    (scope-problem scope term "a time cannot stand here~@[: the first value of a numeric fluent is ~
-                               a fact, such as (= ~a number)~]"
-                   (and (axiom-p (scope-axiom scope)) (formula-text term))))
-  (check-arity scope term 2 2)
-  (check-term scope (second term) :numeric-fluent term)
-  (check-term scope (third term) :time term))
+  "Check TERM, (value-at fluent time), in a state formula (value-at fluent)."
+  (let ((state-p (eq (scope-kind scope) :state)))
+    (when (and state-p (third term))
+      (scope-problem scope term "a time cannot stand here, where (value-at fluent) is a number"))
+    (check-arity scope term (if state-p 1 2) (if state-p 1 2))
+    (check-term scope (second term) :numeric-fluent term)
+    (unless state-p
+      (check-term scope (third term) :time term))))
 
 (defun check-application (scope term sort form)
   "Check TERM, (operator term*), in FORM where SORT is expected."
@@ -245,7 +247,8 @@ IN-FORMULA is true if a formula was expected."
              (check-atom scope term (theory-events theory) "event" form)
              (check-sort scope :event sort term form))
             (t (scope-problem scope form "there is no function ~a~a" (formula-text operator)
-                              (other-kind-text theory term)))))))
+                              (other-kind-text theory term
+                                               :in-state (eq (scope-kind scope) :state))))))))
 
 (defun check-term (scope term sort form)
   "Check that TERM in FORM is of SORT; NIL stands for any sort."

@@ -135,12 +135,15 @@ or NIL."
         ((or (consp thing) (element-sort-p thing))
          (or (gethash thing *places*) (source:form-position thing)))))
 
+(defun note-position (thing position)
+  "Let PLACE-OF return POSITION for THING.  Return THING."
+  (setf (gethash thing *places*) position)
+  thing)
+
 (defun note-place (thing origin)
   "Let PLACE-OF return for THING what it returns for ORIGIN, or the place in work.  Return THING."
   (let ((place (or (place-of origin) *place*)))
-    (when place
-      (setf (gethash thing *places*) place))
-    thing))
+    (if place (note-position thing place) thing)))
 
 (defun latest (things)
   "Return the one of THINGS that stands last in its file, or the last one."
@@ -158,14 +161,16 @@ or NIL."
 
 (defun theory-problem (theory axiom form control &rest arguments)
   "Signal a THEORY-ERROR.  THEORY is a theory or its name, AXIOM an axiom, a string or NIL."
-  (error 'theory-error
-         :theory (if (theory-p theory) (theory-name theory) theory)
-         :axiom (if (axiom-p axiom)
-                    (format nil "axiom ~a" (name-text (axiom-name axiom)))
-                    axiom)
-         :position (or (place-of form) (place-of axiom) *place*)
-         :form form
-         :reason (apply #'format nil control arguments)))
+  (let ((*exact-names* (and (theory-p theory) (eq (theory-syntax theory) :e))))
+    (error 'theory-error
+           :theory (if (theory-p theory) (theory-name theory) theory)
+           :exact-names *exact-names*
+           :axiom (if (axiom-p axiom)
+                      (format nil "axiom ~a" (name-text (axiom-name axiom)))
+                      axiom)
+           :position (or (place-of form) (place-of axiom) *place*)
+           :form form
+           :reason (apply #'format nil control arguments))))
 
 ;;; Vocabulary
 
@@ -193,7 +198,7 @@ predicate is not given as a table."
         (tables (theory-extension-tables theory)))
     (when extension
       (or (gethash name tables)
-          (let ((table (make-hash-table :test 'equal)))
+          (let ((table (make-term-table)))
             (dolist (tuple (rest extension))
               (setf (gethash tuple table) t))
             (setf (gethash name tables) table))))))
@@ -286,7 +291,7 @@ has no such sort.  Elements are keywords, integers, and lists for terms such as 
   "Return the table of the elements of the sort named NAME in THEORY, which is not one of integers."
   (let ((tables (theory-element-tables theory)))
     (or (gethash name tables)
-        (let ((table (make-hash-table :test 'equal)))
+        (let ((table (make-term-table)))
           (dolist (element (sort-elements theory name))
             (setf (gethash element table) t))
           (setf (gethash name tables) table)))))

@@ -23,7 +23,7 @@
   ;; for each cause its trajectories
   (changes #() :type simple-vector :read-only t)
   ;; a table from (axiom . bindings) to formula and last timepoint
-  (formulas (make-hash-table :test 'equal) :type hash-table :read-only t)
+  (formulas (make-term-table) :type hash-table :read-only t)
   ;; a table from timepoints to limits
   (limits-of (make-hash-table) :type hash-table :read-only t))
 
@@ -94,7 +94,7 @@ sentences."
     due))
 
 (defun enter-demands (outline dated sentences)
-  (let ((seen (make-hash-table :test 'equal)))
+  (let ((seen (make-term-table)))
     (loop for (due . sentence)
             in (stable-sort (loop for sentence in sentences
                                   collect (cons (due-time outline sentence) sentence))
@@ -204,7 +204,7 @@ instances ends somewhere: it speaks of all timepoints to come."
   "Return the axioms of those instances for a horizon that ends at TIME that are never due, and
 true if the others are those of DATED that are due by then."
   (let ((endless '()) (same t)
-        (formulas (make-hash-table :test 'equal))
+        (formulas (make-term-table))
         (ground (outline-ground outline)))
     (dolist (sentence (nth-value 1 (ground-until ground (cons (outline-first-time outline) time)
                                                  (dated-clauses ground))))

@@ -88,3 +88,24 @@ changes.  With NIL for EVENT nothing happens."
             (dolist (supports (definition-alternatives definition))
               (dolist (support supports) (look-at (support-formula support))))))))
     (values looks changes)))
+
+;;; Which axioms matter
+
+(defun axioms-used (state event next)
+  "Return the list of the axioms that say something of the step from STATE to NEXT, in which the
+ground EVENT, a list, or NIL happened and what that triggered: effect axioms whose conditions may be
+true, and sentences that are not true in any case."
+  (let* ((ground (state-ground state)) (used '())
+         (number (event-number ground event)))
+    (flet ((add (axiom) (when (typep axiom 'axiom) (pushnew axiom used))))
+      (loop for (happening . proposition) in (state-happenings next)
+            when proposition
+              do (dolist (effect (svref (ground-theory-effects ground)
+                                        (find-event ground happening)))
+                   (when (handler-case (holds (effect-guard effect) (list state))
+                           ;; a condition on events or other timepoints
+                           (error () t))
+                     (add (effect-axiom effect)))))
+      (loop for (axiom) in (nth-value 1 (progress state number))
+            do (add axiom)))
+    (nreverse used)))

@@ -43,6 +43,19 @@ their variables in OCCURRING.  Return the position after them."
                       (if (minusp literal) (- variable) variable))))
           (incf position))))))
 
+(defconstant +most-literals+ 30000000
+  "So many literals may the clauses of a horizon have.")
+
+(defun check-literal-count (encoder horizon)
+  "Signal THEORY-ERROR if the clauses for HORIZON would exhaust the heap."
+  (let ((count (* (+ 1 (- (cdr horizon) (car horizon)))
+                  (loop for template in (encoder-templates encoder)
+                        sum (fill-pointer (template-literals template))))))
+    (when (> count +most-literals+)
+      (theory-problem (ground-theory-theory (encoder-ground encoder)) nil nil
+                      "the timepoints ~d to ~d need some ~d literals, more than ~d"
+                      (car horizon) (cdr horizon) count +most-literals+))))
+
 (defun schedule (encoder from horizon)
   "Return a list of (template . time): the clauses to be added when the last timepoint grows from
 FROM, NIL for none so far, to that of HORIZON."
@@ -91,6 +104,7 @@ FROM, NIL for none so far, to that of HORIZON."
 
 (defun add-to-solver (reasoner from horizon)
   "Assert the clauses that SCHEDULE names."
+  (check-literal-count (reasoner-encoder reasoner) horizon)
   (let* ((encoder (reasoner-encoder reasoner))
          (jobs (schedule encoder from horizon))
          (size (+ (encoder-global-size encoder)

@@ -42,7 +42,7 @@
   (last 0 :type fixnum :read-only t)
   (literals (make-array 64 :element-type 'fixnum :adjustable t :fill-pointer 0)
    :type (and vector (not simple-array)) :read-only t)
-  (known (make-hash-table :test 'equal) :type hash-table :read-only t)
+  (known (make-term-table) :type hash-table :read-only t)
   ;; lists of codes of which at most one is true
   (exclusions '() :type list)
   ;; (code operator term term): atoms that are true where a comparison is

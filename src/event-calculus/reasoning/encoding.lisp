@@ -246,7 +246,7 @@ is true; THING says where that comes from."
     (let* ((template (find-template encoder 0 (if (eq atom-kind :event) 1 0)))
            (literals (loop for number in numbers
                            collect (atom-literal encoder atom-kind number 0))))
-      (with-source (encoder template nil :exclusion thing)
+      (with-source (encoder template nil (if (eq kind :xor) :exactly-one :exclusion) thing)
         (when (eq kind :xor)
           (add-clause encoder literals))
         (if (or (encoder-tracked encoder) (null (nthcdr 6 literals)))

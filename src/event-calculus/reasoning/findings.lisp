@@ -100,9 +100,27 @@ about, a keyword."
                                         (name-text (axiom-name axiom)) (horizon-text) time)
                                 (axiom-position axiom))))
 
+(defun instantiated-p (reasoners axiom)
+  "Return true if AXIOM has an instance for one of REASONERS."
+  (some (lambda (reasoner)
+          (let ((ground (encoder-ground (reasoner-encoder reasoner))))
+            (or (eq axiom (ground-theory-one-event-at-a-time ground))
+                (gethash axiom (ground-theory-instantiated ground)))))
+        reasoners))
+
+(defun axioms-without-instances (reasoners theory)
+  (loop for axiom in (theory-axioms theory)
+        unless (or (time-beyond-horizon theory axiom) (instantiated-p reasoners axiom))
+          collect (make-finding
+                   :warning :no-instance (axiom-name axiom)
+                   (format nil "axiom ~a says nothing: each instance has an argument outside of ~
+                                its sort, a time outside of the horizon, or a function without ~
+                                a value" (name-text (axiom-name axiom)))
+                   (axiom-position axiom))))
+
 (defun vacuous-axioms (reasoners theory)
   (loop for axiom in (theory-axioms theory)
-        unless (time-beyond-horizon theory axiom)
+        when (and (not (time-beyond-horizon theory axiom)) (instantiated-p reasoners axiom))
           nconc (loop for (kind condition head) in (axiom-clauses axiom theory)
                       for premise = (clause-premise kind condition head)
                       when (and premise (never-p reasoners premise))
@@ -321,7 +339,7 @@ conditions."
 
 (defun check-theory (theory &key horizon)
   "Return the list of the FINDINGs about THEORY, a theory or its name: is it inconsistent, which
-axioms never apply, which events can never happen or change nothing, which fluents never change, are
+axioms have no instance or never apply, which events can never happen or change nothing, which fluents never change, are
 never read, or are open at first, which sorts have no elements and which functions no values.
 HORIZON is as for MAKE-REASONER; where the theory has none the last timepoint is 3, or the last that
 an axiom gives by number.  Signals THEORY-NOT-FOUND, NO-HORIZON."
@@ -340,7 +358,8 @@ an axiom gives by number.  Signals THEORY-NOT-FOUND, NO-HORIZON."
                                           :open-events (abducible-events theory ground))
              (with-reasoner (reasoner theory :horizon horizon)
                (let ((reasoners (list general reasoner)))
-                 (append (vacuous-axioms reasoners theory)
+                 (append (axioms-without-instances reasoners theory)
+                         (vacuous-axioms reasoners theory)
                          (impossible-events reasoners theory)
                          (events-without-effect theory)
                          (constant-fluents reasoners theory)))))

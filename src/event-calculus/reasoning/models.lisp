@@ -42,7 +42,7 @@
   (check-type time integer)
   (destructuring-bind (first . last) (model-horizon model)
     (unless (<= first time last)
-      (error 'no-horizon :theory (theory-name (model-theory model)) :horizon time))))
+      (error 'outside-horizon :time time :horizon (model-horizon model)))))
 
 (defun true-members (model kind atoms time)
   (check-model-time model time)
@@ -51,11 +51,11 @@
         when (model-bit model kind number time) collect atom))
 
 (defun model-fluents (model time)
-  "Return the list of the ground fluents that hold in MODEL at TIME.  Signals NO-HORIZON."
+  "Return the list of the ground fluents that hold in MODEL at TIME.  Signals OUTSIDE-HORIZON."
   (true-members model :fluent (ground-theory-fluents (encoder-ground (model-encoder model))) time))
 
 (defun model-events (model time)
-  "Return the list of the ground events that happen in MODEL at TIME.  Signals NO-HORIZON."
+  "Return the list of the ground events that happen in MODEL at TIME.  Signals OUTSIDE-HORIZON."
   (if (eql time (cdr (model-horizon model)))
       '()
       (true-members model :event (ground-theory-events (encoder-ground (model-encoder model)))
@@ -64,7 +64,7 @@
 (defun model-number (model fluent time)
   "Return the number that the numeric FLUENT, a list of symbols, has in MODEL at TIME: a rational, a
 Z3:ALGEBRAIC-NUMBER, or NIL if no axiom speaks of it.  Other models may have others.  Signals
-UNKNOWN-ATOM, NO-HORIZON."
+UNKNOWN-ATOM, OUTSIDE-HORIZON."
   (check-model-time model time)
   (let ((ground (encoder-ground (model-encoder model))))
     (values (gethash (cons (or (gethash (atom-keywords fluent)

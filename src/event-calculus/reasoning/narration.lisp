@@ -169,7 +169,10 @@ derives, and the words for what else that takes."
       (:not-released "nothing has released it")
       (:completion (format nil "no axiom makes it so~@[, since ~a~]"
                            (and premises (joined premises))))
-      (:exclusion (format nil "~a, and only one of them can" (joined premises)))
+      ((:exclusion :exactly-one)
+       (format nil "~@[~a, and ~]~:[only ~;~]one of them ~:[can~;must~]"
+               (and premises (joined premises))
+               (plusp (derivation-literal derivation)) (plusp (derivation-literal derivation))))
       (t (let ((name (if axiom (axiom-words axiom) (name-text (source-kind source)))))
            (if premises
                (format nil "~a (~a)" (joined premises) name)

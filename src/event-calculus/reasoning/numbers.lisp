@@ -62,7 +62,7 @@ divided by 0 it is false."
 
 (defun current-numbers (reasoner)
   "Return a table from (numeric . time) to the numbers of the model that the last check found."
-  (let ((table (make-hash-table :test 'equal)))
+  (let ((table (make-term-table)))
     (maphash (lambda (key term)
                (setf (gethash key table) (z3:model-value (reasoner-solver reasoner) term)))
              (reasoner-numbers reasoner))

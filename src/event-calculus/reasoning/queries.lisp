@@ -86,12 +86,14 @@ projection, from observations postdiction.  The arguments are those of MODELS."
 (defun goal-at (goal theory time)
   "Return the state formula GOAL of THEORY as a formula about TIME."
   (labels ((convert (form)
-             (case (first form)
+             (case (if (consp form) (first form) :term)
+               (:term form)
                ((:and :or :not :implies :iff) (cons (first form) (mapcar #'convert (rest form))))
                ((:forall :exists) (list (first form) (second form) (convert (third form))))
-               (t (if (assoc (first form) (theory-fluents theory))
-                      (list :holds-at form time)
-                      form)))))
+               (:value-at (list :value-at (second form) time))
+               (t (cond ((assoc (first form) (theory-fluents theory)) (list :holds-at form time))
+                        ((mentions-value-p form) (mapcar #'convert form))
+                        (t form))))))
     (convert (parse-formula goal theory :kind :state :blame "the goal"))))
 
 (defun model-plan (model)

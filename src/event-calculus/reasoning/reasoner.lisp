@@ -31,7 +31,7 @@ CLOSE-REASONER."
   (timeout nil :type (or null real) :read-only t)
   (logic nil :type (or null string) :read-only t)
   ;; from (number of a numeric fluent . time) to its Z3 term
-  (numbers (make-hash-table :test 'equal) :type hash-table :read-only t))
+  (numbers (make-term-table) :type hash-table :read-only t))
 
 (setf (documentation 'reasoner-theory 'function)
       "Return the theory of a reasoner."

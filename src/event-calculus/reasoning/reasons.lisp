@@ -165,6 +165,7 @@
             (let ((code (atom-literal encoder kind number (or dated time))))
               (format nil "~a only if an axiom makes it so"
                       (formula-text (atom-of-code encoder code 0))))))
-         (:exclusion (format nil "at most one of ~:[~{~a~^, ~}~;the events~*~] at ~d"
-                             (axiom-p thing)
-                             (if (listp thing) (mapcar #'name-text thing) '()) time)))))))
+         ((:exclusion :exactly-one)
+          (format nil "~:[at most~;exactly~] one of ~:[~{~a~^, ~}~;the events~*~] at ~d"
+                  (eq (source-kind source) :exactly-one) (axiom-p thing)
+                  (if (listp thing) (mapcar #'name-text thing) '()) time)))))))

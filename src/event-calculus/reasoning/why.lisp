@@ -18,8 +18,8 @@
 
 (setf (documentation 'explanation-core 'function)
       "Return the minimal set of instances that an explanation rests on: a list of (name instance).
-NAME is that of an axiom, or :inertia, :release, :not-released, :begin, :stop, :completion or
-:exclusion; INSTANCE a string."
+NAME is that of an axiom, or :inertia, :release, :not-released, :begin, :stop, :completion,
+:exclusion or :exactly-one; INSTANCE a string."
       (documentation 'explanation-sentences 'function)
       "Return the list of the sentences, strings, that an explanation derives its claim by; NIL if
 that takes a distinction of cases.")

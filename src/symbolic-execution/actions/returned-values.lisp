@@ -22,9 +22,9 @@
 
 (defun truth-in (domain state formula)
   "Return whether FORMULA, in which fluents stand for themselves, holds in STATE."
-  (let ((ground-formula (ground-state-formula domain formula (constantly "a truth-of"))))
-    (when *path* (note-looks *path* (ec:formula-footprint ground-formula)))
-    (symbolic-boolean (ec:holds ground-formula (list state)))))
+  (let ((formula (ground-state-formula domain formula (constantly "a truth-of"))))
+    (note-looks (ec:formula-footprint formula))
+    (symbolic-boolean (ec:holds formula (list state)))))
 
 (defun value-in (domain state fluent variable)
   "Return the element in the place of VARIABLE for which FLUENT holds in STATE, the first one if
@@ -38,7 +38,7 @@ there are several, NIL if there is none."
                                          (variable-sort-name variable)))
         (let* ((number (ec:find-fluent ground (substitute element variable fluent)))
                (holds (svref (ec:state-values state) number)))
-          (when *path* (note-looks *path* (ash 1 number)))
+          (note-looks (ash 1 number))
           (add element (z3:conjunction (list rest holds)))
           (setf rest (z3:conjunction (list rest (z3:negation holds))))))
       (add nil rest))

@@ -2,10 +2,10 @@
 ;;;;
 ;;;; ANALYZE turns a form into CODE, a function of a frame, once; calling it evaluates the form.
 ;;;; Special operators, and macros whose expansions would be SBCL's internal matter, have an
-;;;; analyzer each; every other macro is expanded.  Values may be symbolic: an IF on one is a decision, and
-;;;; of the functions that are called only those get one that can do something with it (calls.lisp).
-;;;; Interpreted functions are real functions and take them as they are.  Where nothing is symbolic
-;;;; this is an ordinary evaluator: EVALUATE.
+;;;; analyzer each; every other macro is expanded.  Values may be symbolic: an IF on one is a
+;;;; decision, and of the functions that are called only those get one that can do something with
+;;;; it (calls.lisp).  Interpreted functions are real functions and take them as they are.  Where
+;;;; nothing is symbolic this is an ordinary evaluator: EVALUATE.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -50,7 +50,7 @@ handlers if a plan runs: like compiled code, a form complains when it is reached
   "The same where the values of FORM are those of the form around it: the exits stay as they are."
   (cond ((symbolp form) (analyze-symbol form scope))
         ((atom form) (constant-code form))
-        (t (handler-case (analyze-compound form scope)
+        (t (handler-case (with-form-noted (form) (analyze-compound form scope))
              (unsupported-form (condition) (complaining-code condition))
              (error (condition)
                (complaining-code
@@ -89,7 +89,8 @@ handlers if a plan runs: like compiled code, a form complains when it is reached
     (cond ((place-p meaning) (frame-reader meaning scope))
           ((eq meaning :symbol-macro) (analyze-macro symbol scope))
           ((eq meaning :constant) (constant-code (symbol-value symbol)))
-          (t (code (frame) (symbol-value symbol))))))
+          (t (note-global symbol)
+             (code (frame) (symbol-value symbol))))))
 
 (defun analyze-all (forms scope)
   (mapcar (lambda (form) (analyze form scope)) forms))

@@ -201,8 +201,9 @@ PARAMETERS."
 
 (defun interpreted-plan (plan)
   "Return the interpreted function of PLAN."
-  (or (gethash plan *interpreted-plans*)
-      (setf (gethash plan *interpreted-plans*)
-            (run (local-function-maker (plan:plan-name plan) (plan:plan-lambda-list plan)
-                                       (plan:plan-body plan) (make-scope))
-                 (vector nil)))))
+  (let ((plans (if *recorder* (recorder-plans *recorder*) *interpreted-plans*)))
+    (or (gethash plan plans)
+        (setf (gethash plan plans)
+              (run (local-function-maker (plan:plan-name plan) (plan:plan-lambda-list plan)
+                                         (plan:plan-body plan) (make-scope))
+                   (vector nil))))))

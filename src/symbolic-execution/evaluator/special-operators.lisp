@@ -17,6 +17,7 @@
           (then (analyze-form then scope))
           (else (analyze-form else scope)))
       (declare (type function test then else))
+      (multiple-value-setq (then else) (noting-branches then else))
       (code (frame)
         (let ((value (run test frame)))
           (if (if (symbolic-value-p value) (truth value (site-description site)) value)

@@ -1,8 +1,8 @@
 ;;;; Symbolic arguments of a plan.
 ;;;;
-;;;; :ARGUMENTS '((?object-type item-type) (?retries (integer 0 3))) gives parameters types; each run
-;;;; calls the plan with symbolic values of these types.  A trace has the least concrete ones that
-;;;; its path allows.  Entry points: PARAMETER-TYPES, MAKE-ARGUMENTS, CONCRETE-ARGUMENTS.
+;;;; :ARGUMENTS '((?object-type item-type) (?retries (integer 0 3))) gives parameters types; each
+;;;; run calls the plan with symbolic values of these types.  A trace has the least concrete ones
+;;;; that its path allows.  Entry points: PARAMETER-TYPES, MAKE-ARGUMENTS, CONCRETE-ARGUMENTS.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 

@@ -2,7 +2,8 @@
 ;;;;
 ;;;; An EXPLORATION hands out traces one by one (NEXT-TRACE, in next-trace.lisp).  It keeps a
 ;;;; frontier of prefixes; for each it runs the plan again from the start, repeating the prefix's
-;;;; decisions, and adds the alternatives met behind it.  What a bound cuts off is a GAP, a sentence.
+;;;; decisions, and adds the alternatives met behind it.  What a bound cuts off is a GAP, a
+;;;; sentence.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -20,6 +21,7 @@
           :documentation "The order of the paths, a keyword.")
    (seed :initarg :seed :reader exploration-seed :documentation "The seed of the order :RANDOM.")
    (interleavings :initarg :interleavings :reader exploration-interleavings)
+   (recorder :initarg :recorder :reader exploration-recorder)
    (uses :initform (make-hash-table :test 'eq) :reader exploration-uses
          :documentation "The LISP-USE of each branch.")
    (file-output :initarg :file-output :reader exploration-file-output)
@@ -171,8 +173,8 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
 (defun make-exploration (plan domain
                          &key constraint arguments (traces :last) (order :depth-first) (seed 0)
                            (max-paths 10000) (max-steps 1000) (max-jumps 1000000) max-seconds
-                           interleavings file-output progress solver-timeout solver-options
-                           keep-errors)
+                           interleavings coverage file-output progress solver-timeout
+                           solver-options (on-unknown :keep) keep-errors)
   "Return an EXPLORATION of the plan named PLAN (a symbol) in DOMAIN (an ACTION-THEORY or its name).
   CONSTRAINT  a state constraint, its name, or a formula over ?time and (+ ?time n); with NIL the
               theory's only one; :ANY-ACTION: each performed action ends a trace
@@ -186,12 +188,14 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
               and MAX-SECONDS (in all, or NIL) bound the search; what they cut off is a gap
   INTERLEAVINGS  with NIL tasks that run in parallel take turns in one fixed order, with T all
               orders are explored in which the outcome can differ, with :ALL all orders
+  COVERAGE    true if what is evaluated, taken and exercised is to be recorded, see COVERAGE
   FILE-OUTPUT true if the plan may write files: no run's writing is undone
   KEEP-ERRORS true if an error that the plan does not handle only ends its path, instead of being
               signaled as PLAN-BROKE
   PROGRESS    a function that is called with the exploration, at most once a second
-  SOLVER-TIMEOUT (s, or NIL) and SOLVER-OPTIONS are for Z3, see Z3:MAKE-SOLVER; what it cannot
-              answer is taken for possible, and a gap
+  SOLVER-TIMEOUT (s, or NIL) and SOLVER-OPTIONS are for Z3, see Z3:MAKE-SOLVER
+  ON-UNKNOWN  :KEEP, what Z3 cannot answer is taken for possible, and a gap; or :SIGNAL
+              SOLVER-UNKNOWN with its restarts
 Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, THEORY-ERROR,
 UNSUPPORTED-FORM."
   (check-option :traces traces "one of :last, :every-instance, :first-instance, :every-state"
@@ -200,6 +204,7 @@ UNSUPPORTED-FORM."
                 (member order '(:depth-first :breadth-first :random :coverage)))
   (check-option :interleavings interleavings "one of nil, t, :all"
                 (member interleavings '(nil t :all)))
+  (check-option :on-unknown on-unknown "one of :keep, :signal" (member on-unknown '(:keep :signal)))
   (check-bounds :max-paths max-paths :max-steps max-steps :max-jumps max-jumps :seed seed)
   (let* ((plan (plan:find-plan plan))
          (domain (if (typep domain 'action-theory) domain (find-action-theory domain)))
@@ -214,6 +219,7 @@ UNSUPPORTED-FORM."
                                                    (ec:state-constraint-formula constraint)))
                    :traces (if (and any-action (eq traces :last)) :every-instance traces)
                    :order order :seed seed :interleavings interleavings
+                   :recorder (and coverage (make-recorder))
                    :file-output (and file-output t) :keep-errors (and keep-errors t)
                    :max-paths max-paths :max-steps max-steps :max-jumps max-jumps
                    :max-seconds max-seconds :progress progress
@@ -221,6 +227,8 @@ UNSUPPORTED-FORM."
                    :oracle (make-path-oracle
                             ground
                             :numeric (some (lambda (entry)
-                                             (and (consp entry) (numeric-argument-type-p (second entry))))
+                                             (and (consp entry)
+                                                  (numeric-argument-type-p (second entry))))
                                            types)
-                            :timeout solver-timeout :options solver-options))))
+                            :timeout solver-timeout :options solver-options
+                            :signals-unknown (eq on-unknown :signal)))))

@@ -6,8 +6,8 @@
 (in-package #:discrepancy-finder.symbolic-execution)
 
 (defun fixed-values (oracle propositions)
-  "Return a list of the truth values of PROPOSITIONS, :OPEN for those that the solver of ORACLE, whose
-last check has found a model, does not fix."
+  "Return a list of the truth values of PROPOSITIONS, :OPEN for those that the solver of ORACLE,
+whose last check has found a model, does not fix."
   (let ((model (values-in-model oracle propositions)))
     ;; Each model shows that those are open in which it differs from the first.
     (loop with open = (make-list (length propositions) :initial-element nil)

@@ -139,9 +139,9 @@ a PERFORM has no code of its own."
   (let ((schedule (path-schedule path)))
     (and schedule (first (schedule-turns schedule)))))
 
-(defun note-looks (path looks)
-  "Note that the current turn of PATH looks at the set of fluents LOOKS."
-  (let ((turn (current-turn path)))
+(defun note-looks (looks)
+  "Note that the current turn, if there is one, looks at the set of fluents LOOKS."
+  (let ((turn (and *path* (current-turn *path*))))
     (when turn
       (setf (turn-looks turn) (logior (turn-looks turn) looks)))))
 

@@ -28,7 +28,8 @@ is needed."
   (setf (gethash term (assignment-settled assignment)) value))
 
 (defun term-value (assignment term)
-  "Return the value of TERM, or TERM if it is a constant.  Throws to ASSIGNMENT if Z3 finds no model."
+  "Return the value of TERM, or TERM if it is a constant.  Throws to ASSIGNMENT if Z3 finds no
+model."
   (if (z3:term-p term)
       (multiple-value-bind (value known) (gethash term (assignment-settled assignment))
         (if known

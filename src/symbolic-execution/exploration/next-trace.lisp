@@ -4,7 +4,7 @@
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
-(defconstant +oracle-load+ 100000
+(defparameter *oracle-load* 100000
   "After so many new options Z3 is given a new context, so that old terms need no memory.")
 
 (defun note-gap (exploration control &rest arguments)
@@ -108,8 +108,11 @@
 NIL if there is no path."
   (let ((path (make-run-path exploration (reverse prefix)))
         (arguments (current-arguments exploration))
-        (frontier (exploration-frontier exploration)))
+        (frontier (exploration-frontier exploration))
+        (*recorder* (exploration-recorder exploration)))
     (when (exploration-consistent-p exploration)
+      (when (and *recorder* (null prefix))
+        (note-initial-state *recorder* (first (path-states path))))
       (let ((output (run-plan-on path (interpreted-plan (exploration-plan exploration))
                                  (mapcar #'argument-value arguments))))
         (note-races path)
@@ -136,7 +139,7 @@ NIL if there is no path."
 (defun prepare-oracle (exploration)
   "Give Z3 a new context if it holds too much, or is in doubt."
   (let ((oracle (exploration-oracle exploration)))
-    (when (or (null (oracle-context oracle)) (> (oracle-load oracle) +oracle-load+))
+    (when (or (null (oracle-context oracle)) (> (oracle-load oracle) *oracle-load*))
       (renew-oracle oracle))))
 
 (defun run-next-path (exploration)
@@ -205,9 +208,8 @@ error or an interrupt the path stays pending."
 
 (defun next-trace (exploration)
   "Return the next trace of EXPLORATION, or NIL if there are no more, or a bound is reached.  No
-trace is handed out twice.  Signals NONDETERMINISTIC-PLAN, UNSUPPORTED-FORM and what the plan
-signals; SOLVER-UNKNOWN is signaled, too, and if no handler transfers control the outcome in
-question is taken for possible."
+trace is handed out twice.  Signals NONDETERMINISTIC-PLAN, UNSUPPORTED-FORM, PLAN-BROKE and what
+else the plan signals."
   (loop
     (report-progress exploration)
     (let ((trace (call-timed exploration (lambda () (next-trace-of-path exploration)))))
@@ -220,18 +222,12 @@ question is taken for possible."
              (push trace (exploration-found exploration))
              (return trace))))))
 
-(defun explore-plan (plan &rest options &key domain constraint arguments traces order seed
-                                          max-paths max-steps max-jumps max-seconds interleavings
-                                          file-output progress solver-timeout solver-options)
-  "Return an EXPLORATION that has found every trace of PLAN in DOMAIN and holds no foreign memory.
-The options are those of MAKE-EXPLORATION.  While it is at work, e.g. in the debugger after C-c, the
-restart STOP-EXPLORING returns what was found so far."
-  (declare (ignore constraint arguments traces order seed max-paths max-steps max-jumps max-seconds
-                   interleavings file-output progress solver-timeout solver-options))
-  (let ((exploration (apply #'make-exploration plan domain (alexandria:remove-from-plist
-                                                            options :domain))))
-    (explore-all exploration #'next-trace)
-    exploration))
+(defun stop-exploring (&optional condition)
+  "Invoke the restart of this name, which ends the work of EXPLORE-PLAN or VERIFY-PLAN: what was
+found is returned, with a gap.  Return NIL if there is none."
+  (let ((restart (find-restart 'stop-exploring condition)))
+    (when restart
+      (invoke-restart restart))))
 
 (defun explore-all (exploration next)
   "Call NEXT with EXPLORATION until it returns NIL, and close it; offer STOP-EXPLORING meanwhile."
@@ -241,3 +237,12 @@ restart STOP-EXPLORING returns what was found so far."
            :report "Explore no more paths; keep what was found."
            (note-gap exploration "what comes after an interruption")))
     (close-exploration exploration)))
+
+(defun explore-plan (plan &rest options &key domain &allow-other-keys)
+  "Return an EXPLORATION that has found every trace of PLAN in DOMAIN and holds no foreign memory.
+The options are those of MAKE-EXPLORATION.  While it is at work, e.g. in the debugger after C-c, the
+restart STOP-EXPLORING returns what was found so far."
+  (let ((exploration (apply #'make-exploration plan domain
+                            (alexandria:remove-from-plist options :domain))))
+    (explore-all exploration #'next-trace)
+    exploration))

@@ -68,15 +68,19 @@ DESCRIPTION and still remembers them, else NIL."
                    (string= description (decision-description recorded)))
           (values (car value) (cdr value)))))))
 
-(defun decide-new-step (path designator description outcomes)
-  "Decide for one of OUTCOMES of DESIGNATOR and return it and the state after it."
+(defun decide-new-step (path designator description position outcomes)
+  "Decide for one of OUTCOMES of DESIGNATOR, performed at POSITION, and return it and the state after
+it."
   (let ((alternatives (path-alternatives path)))
     (destructuring-bind (outcome . next)
-        (decide path description (step-options path outcomes))
+        (decide path description (step-options path outcomes) :position position)
       ;; For the runs that will repeat the decision.
-      (setf (decision-designator (first (path-decisions path))) designator)
-      (loop for (decision) in (ldiff (path-alternatives path) alternatives)
-            do (setf (decision-designator decision) designator))
+      (flet ((complete (decision)
+               (setf (decision-designator decision) designator
+                     (decision-position decision) position)))
+        (complete (first (path-decisions path)))
+        (loop for (decision) in (ldiff (path-alternatives path) alternatives)
+              do (complete decision)))
       (values outcome next))))
 
 (defun step-options (path outcomes)
@@ -104,11 +108,11 @@ the state after it, and the text of DESIGNATOR."
               (if recorded
                   (let ((outcome (nth (decision-choice (next-recorded path)) outcomes)))
                     (unless (and outcome (equal (outcome-event outcome) (outcome-event recorded)))
-                      (other-decision path (next-recorded path) description))
+                      (other-decision path (next-recorded path) description position))
                     (repeat-decision path (next-recorded path))
                     (values outcome next description))
                   (multiple-value-bind (outcome next)
-                      (decide-new-step path designator description outcomes)
+                      (decide-new-step path designator description position outcomes)
                     (values outcome next description)))))))))
 
 (defun take-step (path designator position plan)
@@ -118,6 +122,8 @@ return the outcome."
     (push (make-trace-step :designator description :event (outcome-event outcome)
                            :outcome (outcome-name outcome) :position position)
           (path-steps path))
+    (when *recorder*
+      (note-step-taken *recorder* (first (path-states path)) outcome next))
     (push (path-depth path) (path-step-depths path))
     (push next (path-states path))
     outcome))
@@ -126,7 +132,9 @@ return the outcome."
   "Return true if DESIGNATOR has no action binding in DOMAIN but a plan of its own: performing it
 enters that plan."
   (and (null (find-action-binding domain designator))
-       (plan:plan-known-p designator)))
+       (progn
+         (note-designator designator)
+         (plan:plan-known-p (decided designator "a designator that is resolved")))))
 
 (defmethod plan:perform-with ((path path) designator position)
   (cond ((path-fatal path) nil)         ; an error unwinds: let it go on

@@ -66,5 +66,5 @@ the prefix."
   (when (and (path-prefix path) (not (eq (path-ending path) :out-of-time)))
     (error 'nondeterministic-plan
            :plan (path-plan path) :found "its end"
-           :expected (decision-description (first (path-prefix path))))))
+           :expected (expected-text (first (path-prefix path))))))
 

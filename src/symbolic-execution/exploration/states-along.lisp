@@ -2,12 +2,14 @@
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
-(defun make-path-oracle (ground &key numeric timeout options)
+(defun make-path-oracle (ground &key numeric timeout options signals-unknown)
   "Return an open oracle for paths of the theory GROUND; NUMERIC if there are numbers apart from its
 fluents.  Its questions are many and small: Z3's engine for QF_UF, which keeps what it has learnt,
-is some ten times faster there than the one for QF_FD.  TIMEOUT and OPTIONS are the solver's."
+is some ten times faster there than the one for QF_FD.  TIMEOUT and OPTIONS are the solver's;
+SIGNALS-UNKNOWN lets SOLVER-UNKNOWN pass."
   (let ((logic (if (or numeric (ec:ground-numeric-p ground)) nil "QF_UF")))
     (open-oracle (make-oracle
+                  :signals-unknown signals-unknown
                   :make-solver (lambda (context)
                                  (z3:make-solver context :logic logic :timeout timeout
                                                          :options options))))))

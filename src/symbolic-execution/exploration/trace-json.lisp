@@ -1,8 +1,8 @@
 ;;;; Traces as JSON text.
 ;;;;
 ;;;; A text has the plan, its arguments, the true fluents (and the numbers) of each state, the steps
-;;;; and decisions with their places in the plan.  Reading evaluates nothing and interns nothing; the
-;;;; states are made again by the theory, which must allow them.  Entry points: TRACE-TO-JSON,
+;;;; and decisions with their places in the plan.  Reading evaluates nothing and interns nothing;
+;;;; the states are made again by the theory, which must allow them.  Entry points: TRACE-TO-JSON,
 ;;;; TRACE-FROM-JSON.
 
 (in-package #:discrepancy-finder.symbolic-execution)

@@ -1,7 +1,7 @@
 ;;;; From paths to traces: where a state constraint comes true on a path, and from which state.
 ;;;;
 ;;;; What is handed out (the option :TRACES of an exploration):
-;;;;   :LAST             one trace a path, cut after the last timepoint at which the constraint holds
+;;;;   :LAST             one trace a path, cut after the last time at which the constraint holds
 ;;;;   :EVERY-INSTANCE   each prefix of a path that ends in an instance; what holds on the path
 ;;;;                     later is not asked for
 ;;;;   :FIRST-INSTANCE   only the shortest of them

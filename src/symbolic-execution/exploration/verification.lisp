@@ -1,8 +1,8 @@
 ;;;; Verification: does a safety property hold on all paths?
 ;;;;
 ;;;; A property is a formula over ?time that must be true at every timepoint; or that no failure, or
-;;;; no error, leaves the plan.  The answer is a VERIFICATION: a counterexample, which is a trace, or
-;;;; that there is none, on all paths or on those within the bounds.  Entry point: VERIFY-PLAN.
+;;;; no error, leaves the plan.  The answer is a VERIFICATION: a counterexample, which is a trace,
+;;;; or that there is none, on all paths or on those within the bounds.  Entry point: VERIFY-PLAN.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 

@@ -1,8 +1,8 @@
 ;;;; The world outside of a plan: files that a run cannot undo, and the time.
 ;;;;
 ;;;; On a path a file may not be opened for output, nor deleted or renamed, unless the exploration
-;;;; allows it (:FILE-OUTPUT), and Common Lisp's clocks show the plan's virtual time.  This holds for
-;;;; what plans call themselves; compiled code that they call does what it does.
+;;;; allows it (:FILE-OUTPUT), and Common Lisp's clocks show the plan's virtual time.  This holds
+;;;; for what plans call themselves, on every path; compiled code that they call does what it does.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -18,7 +18,7 @@
 ones, and what the last one, a &rest parameter, holds is decided, too.  BODY is evaluated before
 NAME is called."
   (let ((required (butlast arguments)) (rest (first (last arguments))))
-    `(define-lifted ,name ,lambda-list
+    `(define-lifted (,name) ,lambda-list
        (let (,@(loop for argument in arguments
                      collect `(,argument (decided ,argument ,(describe-decision name)))))
          ,@body
@@ -49,18 +49,18 @@ NAME is called."
 (defun virtual-internal-time ()
   (floor (* (rational (virtual-seconds)) internal-time-units-per-second)))
 
-(define-lifted get-universal-time ()
+(define-lifted (get-universal-time) ()
   (if *path*
       (+ *virtual-epoch* (floor (virtual-seconds)))
       (get-universal-time)))
 
-(define-lifted get-internal-real-time ()
+(define-lifted (get-internal-real-time) ()
   (if *path* (virtual-internal-time) (get-internal-real-time)))
 
-(define-lifted get-internal-run-time ()
+(define-lifted (get-internal-run-time) ()
   (if *path* (virtual-internal-time) (get-internal-run-time)))
 
-(define-lifted get-decoded-time ()
+(define-lifted (get-decoded-time) ()
   (if *path*
       (decode-universal-time (+ *virtual-epoch* (floor (virtual-seconds))) 0)
       (get-decoded-time)))

@@ -36,7 +36,9 @@ objects that a symbolic argument may be the arguments are decided."
 ;;; Of symbolic numbers
 
 (define-lifted (rationalize) (number)
-  (if (symbolic-number-p number) number (rationalize (settled number "an argument of rationalize"))))
+  (if (symbolic-number-p number)
+      number
+      (rationalize (settled number "an argument of rationalize"))))
 
 (define-lifted realpart (number)
   (if (symbolic-number-p number) number (realpart (settled number "an argument of realpart"))))

@@ -7,8 +7,8 @@
 ;;;;
 ;;;; The arguments of a function have ROLES: :ANY, nothing is done; :ONE, settled; :SEQUENCE, a
 ;;;; settled sequence or list; :CHANGED, the same, which the function changes; :FUNCTION; :TEST, a
-;;;; function of which only the truth matters; :VALUE-TEST, one whose value is returned; :JOINED, one
-;;;; that returns lists to be joined by NCONC; :TREE, a tree that the function changes.
+;;;; function of which only the truth matters; :VALUE-TEST, one whose value is returned; :JOINED,
+;;;; one that returns lists to be joined by NCONC; :TREE, a tree that the function changes.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -16,7 +16,8 @@
   "Return whether ONE and OTHER are the same, by a decision if that is symbolic."
   (if (or (symbolic-value-p one) (symbolic-value-p other))
       (or (eq one other)
-          (decide-proposition (equal-proposition one other #'eql) "whether two values are the same"))
+          (decide-proposition (equal-proposition one other #'eql)
+                              "whether two values are the same"))
       (eql one other)))
 
 (defun deciding-function (function keep-value)

@@ -81,7 +81,7 @@ which those whose names do not begin with ANY are decided first."
                   `(apply #',name ,@required ,@(mapcar #'first optional)
                           ,(if (any-p rest)
                                rest
-                               `(mapcar (lambda (value) (settled value ,(describe-decision name))) ,rest))))
+                               `(settled-each ,rest ,(describe-decision name)))))
                  (optional
                   (labels ((call (variables options)
                              (if options
@@ -130,10 +130,12 @@ functions of structures and accessors of classes are transparent."
 (defun call-opaque (function arguments description)
   "Call FUNCTION, which may be compiled, with the list ARGUMENTS, in which everything symbolic is
 decided first, and return its values."
-  (apply (the function function)
-         (if (symbolic-run-p)
-             (mapcar (lambda (argument) (decided argument description)) arguments)
-             arguments)))
+  (cond ((symbolic-run-p)
+         (unless (system-function-p function)
+           (decide-globals description))
+         (apply (the function function)
+                (mapcar (lambda (argument) (decided argument description)) arguments)))
+        (t (apply (the function function) arguments))))
 
 (defvar *named-versions* (make-hash-table :test 'eq :weakness :key :synchronized t)
   "The version, or NIL, of functions that are not in the table.")

@@ -42,10 +42,18 @@ are EXHAUSTIVE and all but the last are impossible the last one need not be aske
   "Return the next decision of PATH's prefix, or NIL if all are repeated."
   (first (path-prefix path)))
 
-(defun other-decision (path recorded description)
+(defun decision-text (description position)
+  (format nil "~@[~a: ~]~a" (and position (princ-to-string position)) description))
+
+(defun expected-text (recorded)
+  "Return the text of the decision RECORDED, with its place."
+  (decision-text (decision-description recorded) (decision-position recorded)))
+
+(defun other-decision (path recorded description &optional position)
   "Signal NONDETERMINISTIC-PLAN: the decision described is met instead of the RECORDED one."
-  (error 'nondeterministic-plan :plan (path-plan path) :found description
-                                :expected (decision-description recorded)))
+  (error 'nondeterministic-plan :plan (path-plan path)
+                                :found (decision-text description position)
+                                :expected (expected-text recorded)))
 
 (defun take-decision (path decision)
   "Let PATH go on with DECISION."
@@ -67,19 +75,20 @@ are EXHAUSTIVE and all but the last are impossible the last one need not be aske
         (decision-epoch decision) (oracle-epoch (path-oracle path)))
   decision)
 
-(defun repeat-option (path recorded description options)
+(defun repeat-option (path recorded description options position)
   "Repeat the decision RECORDED, met with DESCRIPTION and OPTIONS, and return its choice."
   (unless (string= (decision-description recorded) description)
-    (other-decision path recorded description))
+    (other-decision path recorded description position))
   (let* ((given (if (functionp options)
                     (and (not (current-p path recorded)) (funcall options))
                     options))
          (option (nth (decision-choice recorded) given)))
     (cond ((and (functionp options) (null given)))
-          ((null option) (other-decision path recorded description))
+          ((null option) (other-decision path recorded description position))
           ((not (current-p path recorded)) (fill-decision path recorded option))
           ((not (z3:term-equal (decision-proposition recorded) (cdr option)))
-           (other-decision path recorded (format nil "~a about something else" description))))
+           (other-decision path recorded (format nil "~a about something else" description)
+                           position)))
     (repeat-decision path recorded)
     (if option (car option) (decision-value recorded))))
 
@@ -99,14 +108,15 @@ are EXHAUSTIVE and all but the last are impossible the last one need not be aske
       (take-decision path (decision (first possible)))
       (car (nth (first possible) options)))))
 
-(defun decide (path description options &key exhaustive)
+(defun decide (path description options &key exhaustive position)
   "Return the choice of one of OPTIONS, a list of (choice . proposition), and assume its
 proposition.  The other possible ones are noted as alternatives.  OPTIONS may be a function that
 returns this list and the value of EXHAUSTIVE: a repetition of the decision calls it only if it
-must.  It may ask the path's solver.  EXHAUSTIVE: one of the propositions is true in any case.  Abandons PATH if none is possible."
+must.  It may ask the path's solver.  EXHAUSTIVE: one of the propositions is true in any case.
+POSITION is where in the source that is, if DESCRIPTION does not say.  Abandons PATH if none is possible."
   (outside-the-plan (path)
     (check-deadline path)
     (let ((recorded (next-recorded path)))
       (if recorded
-          (repeat-option path recorded description options)
+          (repeat-option path recorded description options position)
           (take-option path description options exhaustive)))))

@@ -11,13 +11,14 @@
 (defstruct (decision (:constructor make-decision (choice description)) (:copier nil))
   "CHOICE is the number of the option taken, DESCRIPTION says of what.  The rest is what the first
 run that took it has found out, valid in EPOCH: the PROPOSITION assumed, the VALUE of the option.
-What a step performs is its DESIGNATOR."
+What a step performs is its DESIGNATOR, and POSITION where, if the description does not say."
   (choice 0 :type (integer 0) :read-only t)
   (description "" :type string :read-only t)
   (epoch -1 :type fixnum)
   (proposition t)
   (value nil)
-  (designator nil))
+  (designator nil)
+  (position nil))
 
 (setf (documentation 'decision-choice 'function)
       "Return the number of the option that a decision takes, counted from 0."
@@ -52,7 +53,8 @@ number, without the one of what is always true."
   (past-seconds 0d0 :type double-float)
   (decisions 0 :type fixnum)
   (decision-checks 0 :type fixnum)
-  (unknowns 0 :type fixnum))
+  (unknowns 0 :type fixnum)
+  (signals-unknown nil :type boolean))
 
 (defun open-oracle (oracle)
   "Give ORACLE a new context and an empty solver."
@@ -91,14 +93,16 @@ number, without the one of what is always true."
 
 (defun ask (oracle &optional (propositions '()))
   "Return :SAT if PROPOSITIONS can be true together with what the solver of ORACLE holds, :UNSAT if
-they cannot, :UNKNOWN if Z3 cannot tell and no handler of SOLVER-UNKNOWN helps it."
-  (block nil
-    (handler-bind ((z3:solver-unknown
-                     (lambda (condition)
-                       (signal condition) ; whoever is outside comes first
-                       (incf (oracle-unknowns oracle))
-                       (return :unknown))))
-      (z3:check (oracle-solver oracle) propositions))))
+they cannot, :UNKNOWN if Z3 cannot tell, unless that is to be signaled."
+  (if (oracle-signals-unknown oracle)
+      (z3:check (oracle-solver oracle) propositions)
+      (block nil
+        (handler-bind ((z3:solver-unknown
+                         (lambda (condition)
+                           (declare (ignore condition))
+                           (incf (oracle-unknowns oracle))
+                           (return :unknown))))
+          (z3:check (oracle-solver oracle) propositions)))))
 
 ;;; Scopes
 

@@ -34,6 +34,8 @@ KEEP-ERRORS an error of the plan is an ending like others."
   (deadline nil :type (or null double-float) :read-only t)
   (symbolic-p nil :type boolean)
   (limits '() :type list)
+  ;; the number of writes when the global variables were last looked through
+  (searched 0 :type fixnum)
   (interleavings nil :type (member nil t :all) :read-only t)
   (schedule nil :read-only t)
   (file-output nil :type boolean :read-only t)

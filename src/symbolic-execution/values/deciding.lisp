@@ -15,13 +15,51 @@
   (setf (symbolic-value-path value) *path*
         (symbolic-value-known value) known))
 
+(defun decided-before (path proposition)
+  "Return :TRUE or :FALSE if a decision on PATH says so of the term PROPOSITION, else NIL."
+  (let ((negation (z3:negation proposition)))
+    (loop for decision in (path-decisions path)
+          for decided = (decision-proposition decision)
+          when (z3:term-p decided)
+            do (cond ((z3:term-equal decided proposition) (return :true))
+                     ((z3:term-equal decided negation) (return :false))))))
+
 (defun decide-proposition (proposition description)
-  "Return T or NIL, whether PROPOSITION is true, by a decision."
+  "Return T or NIL, whether PROPOSITION is true, by a decision unless that was decided before."
   (if (z3:term-p proposition)
-      (decide *path* description
-              (list (cons t proposition) (cons nil (z3:negation proposition)))
-              :exhaustive t)
+      (let ((path *path*))
+        (case (decided-before path proposition)
+          (:true t)
+          (:false nil)
+          (t (decide path description
+                     (list (cons t proposition) (cons nil (z3:negation proposition)))
+                     :exhaustive t))))
       proposition))
+
+(defun remaining-choices (element)
+  "Return those of the choices of the symbolic ELEMENT that no decision on the path excludes."
+  (let ((choices (symbolic-element-choices element)) (path *path*))
+    (flet ((only (object)
+             (note-known element object)
+             (return-from remaining-choices (list (cons object t)))))
+      (if (and path (path-decisions path))
+          (let ((remaining '()))
+            (dolist (choice choices)
+              (case (decided-before path (cdr choice))
+                (:true (only (car choice)))
+                (:false)
+                (t (push choice remaining))))
+            (when (and remaining (null (rest remaining)))
+              (only (car (first remaining))))
+            (nreverse remaining))
+          choices))))
+
+(defun decide-choice (element description)
+  "Return what the symbolic ELEMENT is, by a decision unless that is known from others."
+  (let ((choices (remaining-choices element)))
+    (if (rest choices)
+        (decide *path* description choices :exhaustive t)
+        (car (first choices)))))
 
 (defun truth (value description)
   "Return VALUE, or T or NIL by a decision if it is symbolic."
@@ -40,8 +78,7 @@ at."
         (t (etypecase value
              (symbolic-boolean (truth value description))
              (symbolic-element
-              (note-known value (decide *path* description (symbolic-element-choices value)
-                                        :exhaustive t)))
+              (note-known value (decide-choice value description)))
              (symbolic-number (note-known value (settled-number value description)))))))
 
 ;;; Numbers

@@ -126,7 +126,7 @@ is true; or the only object.  A choice between T and NIL is a symbolic boolean."
   "Return VALUE, symbolic but no number, or any Lisp object, as a list of (object . proposition)."
   (let ((value (current value)))
     (typecase value
-      (symbolic-element (symbolic-element-choices value))
+      (symbolic-element (remaining-choices value))
       (symbolic-boolean (let ((proposition (symbolic-boolean-proposition value)))
                           (list (cons t proposition) (cons nil (z3:negation proposition)))))
       (t (list (cons value t))))))
@@ -136,7 +136,7 @@ is true; or the only object.  A choice between T and NIL is a symbolic boolean."
   (let ((value (current value)))
     (typecase value
       (symbolic-boolean (symbolic-boolean-proposition value))
-      (symbolic-element (let ((false (assoc nil (symbolic-element-choices value))))
+      (symbolic-element (let ((false (assoc nil (choices-of value))))
                           (if false (z3:negation (cdr false)) t)))
       (t (and value t)))))
 
