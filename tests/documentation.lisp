@@ -40,7 +40,7 @@
 (defun restart-name-p (symbol)
   "The names of restarts are explained where they are offered."
   (member symbol '(df:continue-search df:next-trace df:accept
-                   df:retry-with-timeout df:treat-as-sat plan:rethrow)))
+                   df:retry-with-timeout df:treat-as-sat plan:rethrow symbolic:stop-exploring)))
 
 (defun documented-p (symbol)
   (or (some (lambda (kind) (documentation symbol kind))

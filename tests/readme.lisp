@@ -82,3 +82,19 @@
   (let ((entries (transcript-entries (text-block "docs/theories.md" "* (define-theory yale"))))
     (is (= 6 (length entries)))
     (check-entries entries)))
+
+(test the-text-on-symbolic-execution-shows-the-repl
+  (let ((entries (transcript-entries (text-block "docs/symbolic-execution.md"
+                                                 "* (define-theory tidy"))))
+    (is (= 17 (length entries)))
+    (check-entries entries)))
+
+(test the-text-on-symbolic-execution-shows-a-coverage
+  (let ((text (with-output-to-string (stream)
+                (df:print-coverage
+                 (df:coverage (df:explore-plan 'discrepancy-finder-user::find-object
+                                               :domain :table-top :coverage t))
+                 stream))))
+    (dolist (line (text-block "docs/symbolic-execution.md" "Coverage of find-object"))
+      (is (or (string= line "...") (search (format nil "~a~%" line) text))
+          "~s is not in~%~a" line text))))

@@ -53,6 +53,7 @@ them and why, and what they say of a state after known events.")
    #:number-value #:state-numbers
    #:state-propositions #:state-in-model #:same-future-p #:ground-numeric-p
    #:order-matters-p #:event-footprint #:formula-footprint #:axioms-used
+   #:axioms-about-event #:initial-axioms
    ;; conditions
    #:event-calculus-error #:theory-error #:theory-error-theory #:theory-error-axiom
    #:theory-error-reason

@@ -32,7 +32,10 @@
   (:import-from #:discrepancy-finder.designators
                 #:malformed-designator #:unknown-designator-key)
   (:import-from #:discrepancy-finder.symbolic-execution
-                #:define-action #:region-of #:value-of #:truth-of #:exploration #:exploration-traces
+                #:define-action #:region-of #:value-of #:truth-of #:make-domain
+                #:coverage #:print-coverage #:write-coverage-html #:coverage-figures
+                #:never-taken-outcomes #:never-exercised-axioms #:coverage-not-recorded
+                #:exploration #:exploration-traces
                 #:exploration-complete-p #:exploration-paths #:exploration-gaps
                 #:exploration-statistics #:stop-exploring
                 #:verification #:verification-verdict #:verification-counterexample
@@ -64,7 +67,7 @@
    ;; theories, domains, plans
    #:define-theory #:load-theory #:find-theory #:define-state-constraint
    #:define-abstraction #:define-action #:region-of #:value-of #:truth-of #:load-domain
-   #:domain #:load-plan
+   #:make-domain #:domain #:load-plan
    ;; questions to theories
    #:load-e-theory #:read-e-theory #:save-e-theory #:write-e-theory
    #:make-reasoner #:close-reasoner #:with-reasoner #:extend-horizon
@@ -78,9 +81,11 @@
    ;; symbolic execution
    #:explore-plan #:exploration #:exploration-traces #:exploration-complete-p
    #:exploration-paths #:exploration-gaps #:exploration-statistics #:stop-exploring
+   #:execution-trace #:trace-initial-state #:trace-steps #:trace-final-state
+   #:coverage #:print-coverage #:write-coverage-html #:coverage-figures
+   #:never-taken-outcomes #:never-exercised-axioms #:coverage-not-recorded
    #:verify-plan #:verification #:verification-verdict #:verification-counterexample
    #:verification-problem #:verification-bounds
-   #:execution-trace #:trace-initial-state #:trace-steps #:trace-final-state
    ;; projection
    #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
    ;; the search

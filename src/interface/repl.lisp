@@ -16,7 +16,7 @@ name) on which the state constraint :CONSTRAINT (a name, a formula; NIL: the the
 comes true, and the list of these traces; DESCRIBE shows them in full.  :ARGUMENTS is a list of
 (parameter type), the plan's symbolic arguments.  See SYMBOLIC-EXECUTION:MAKE-EXPLORATION for these
 and the other options: :TRACES :ORDER :SEED :MAX-PATHS :MAX-STEPS :MAX-JUMPS :MAX-SECONDS
-:INTERLEAVINGS :FILE-OUTPUT :PROGRESS ....  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
+:INTERLEAVINGS :COVERAGE :FILE-OUTPUT :PROGRESS ....  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
 STATE-CONSTRAINT-NOT-FOUND, UNSUPPORTED-FORM, NONDETERMINISTIC-PLAN, PLAN-BROKE, ACTION-PROBLEM; the
 restart STOP-EXPLORING returns what was found so far."
   (let ((exploration (apply #'symbolic:explore-plan (plan:plan-name (discrepancy:ensure-plan plan))

@@ -38,7 +38,7 @@ a PAR, with success."
            children)))
 
 (defun strand-evaporating-p (strand)
-  "Return true if STRAND is going to leave a task that was asked to evaporate, when it has its turn."
+  "Return true if STRAND is going to leave a task, asked to evaporate, when it has its turn."
   (and (strand-task strand) (evaporating-task strand) t))
 
 (defun call-with-branches (operator forms functions over-p conclude)

@@ -91,7 +91,7 @@ in which they became ready, gets the baton.  An executive that explores all orde
   (:method (executive strand) (declare (ignore executive strand))))
 
 (defun ready-strands (scheduler)
-  "Return the list of the strands of SCHEDULER that are ready, in the order in which they became so."
+  "Return the strands of SCHEDULER that are ready, in the order in which they became so."
   (queue-head (scheduler-ready scheduler)))
 
 (defun make-ready (strand)

@@ -14,7 +14,7 @@
    #:action-theory-actions #:define-action #:register-action #:region-of-pose #:region-of
    #:value-of #:truth-of
    #:action-binding #:find-action-binding #:find-action-theory #:register-action-theory
-   #:all-action-theories
+   #:all-action-theories #:make-domain
    #:entered-p #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition
    ;; exploration
    #:explore-plan #:make-exploration #:next-trace #:exploration #:exploration-traces

@@ -290,7 +290,8 @@
   (:domain kitchen)
   (:event (go place))
   (:requires (near place)))")
-    (signals-with (symbolic:action-problem ":5: The action motion testing, (:requires (near place))")
+    (signals-with (symbolic:action-problem
+                   ":5: The action motion testing, (:requires (near place))")
       (plan:load-plan file))))
 
 (test what-is-computed-is-checked-when-it-is-performed

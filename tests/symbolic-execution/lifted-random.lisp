@@ -54,7 +54,7 @@
         (loop for v being the hash-values of h using (hash-key k) collect (list k v))))))
   "For each nonterminal the forms without and those with others inside of them.")
 
-(defun random-expression (nonterminal depth state)
+(defun random-lifted-expression (nonterminal depth state)
   "Return a random form of NONTERMINAL by *EXPRESSION-GRAMMAR* that is about DEPTH deep."
   (destructuring-bind (simple others) (rest (assoc nonterminal *expression-grammar*))
     (let ((forms (if (plusp depth) others simple)))
@@ -64,7 +64,7 @@
                             form
                             (cons (fill-in (car form)) (fill-in (cdr form)))))
                        ((and (keywordp form) (assoc form *expression-grammar*))
-                        (random-expression form (1- depth) state))
+                        (random-lifted-expression form (1- depth) state))
                        (t form))))
         (fill-in (nth (random (length forms) state) forms))))))
 
@@ -73,7 +73,7 @@
   (let ((state (sb-ext:seed-random-state seed)))
     (loop repeat count
           for nonterminal = (nth (random 3 state) '(:number :boolean :list))
-          for problem = (expression-problem (random-expression nonterminal depth state))
+          for problem = (expression-problem (random-lifted-expression nonterminal depth state))
           when problem collect problem)))
 
 (test random-expressions-as-by-brute-force

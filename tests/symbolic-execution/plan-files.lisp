@@ -12,7 +12,7 @@
 
 (defun note-down (thing)
   "Note THING, in which nothing is symbolic any more."
-  (push thing *notes*)
+  (push (copy-tree thing) *notes*) ; changes of THING are undone after the run
   nil)
 
 (defun notes-of (text &optional (arguments '((discrepancy-finder-user::?flag boolean))))

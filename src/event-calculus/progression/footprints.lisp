@@ -91,21 +91,42 @@ changes.  With NIL for EVENT nothing happens."
 
 ;;; Which axioms matter
 
-(defun axioms-used (state event next)
-  "Return the list of the axioms that say something of the step from STATE to NEXT, in which the
-ground EVENT, a list, or NIL happened and what that triggered: effect axioms whose conditions may be
-true, and sentences that are not true in any case."
-  (let* ((ground (state-ground state)) (used '())
-         (number (event-number ground event)))
-    (flet ((add (axiom) (when (typep axiom 'axiom) (pushnew axiom used))))
-      (loop for (happening . proposition) in (state-happenings next)
-            when proposition
-              do (dolist (effect (svref (ground-theory-effects ground)
-                                        (find-event ground happening)))
-                   (when (handler-case (holds (effect-guard effect) (list state))
-                           ;; a condition on events or other timepoints
-                           (error () t))
-                     (add (effect-axiom effect)))))
-      (loop for (axiom) in (nth-value 1 (progress state number))
-            do (add axiom)))
-    (nreverse used)))
+(defun demand-axioms (demands)
+  (remove-if-not #'axiom-p (mapcar #'demand-axiom demands)))
+
+(defun initial-axioms (ground)
+  "Return the list of the axioms that say something of the initial state of GROUND: facts, and
+sentences about single timepoints."
+  (let ((outline (ground-outline ground)))
+    (remove-duplicates
+     (append (remove-if-not #'axiom-p (mapcar #'sentence-axiom
+                                              (ground-theory-initial-conditions ground)))
+             (demand-axioms (outline-static-demands outline))
+             (demand-axioms (outline-state-demands outline))
+             (loop for demands across (outline-state-demands-of outline)
+                   append (demand-axioms demands))))))
+
+(defun axioms-about-event (ground event)
+  "Return the list of the axioms that say when the ground EVENT, a list, can happen."
+  (remove-duplicates
+   (demand-axioms (svref (outline-event-demands-of (ground-outline ground))
+                         (find-event ground event)))))
+
+(defun effects-of-event (state event)
+  "Return the list of the axioms by which the ground EVENT may have an effect in STATE."
+  (let ((ground (state-ground state)))
+    (loop for effect in (append (svref (ground-theory-effects ground) (find-event ground event)))
+          when (handler-case (holds (effect-guard effect) (list state))
+                 ;; a condition on events or other timepoints
+                 (error () t))
+            collect (effect-axiom effect))))
+
+(defun axioms-used (state next)
+  "Return the list of the axioms that say something of the step from STATE to NEXT: those by which
+what happened may have an effect, and sentences about several timepoints."
+  (remove-duplicates
+   (append (loop for (event . proposition) in (state-happenings next)
+                 when proposition append (effects-of-event state event))
+           (loop for (event . proposition) in (state-happenings next)
+                 when proposition append (axioms-about-event (state-ground state) event))
+           (demand-axioms (outline-other-demands (ground-outline (state-ground state)))))))

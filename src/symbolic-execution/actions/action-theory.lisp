@@ -56,6 +56,14 @@ place of POSE, or NIL if none does."))
   "Make DOMAIN the ACTION-THEORY of its name, and return it."
   (setf (gethash (action-theory-name domain) *domains*) domain))
 
+(defun make-domain (theory &optional (name theory))
+  "Return a new domain named NAME, a symbol, of the theory named THEORY, and register it.  It has no
+scene and, at first, no action bindings: plans can be explored in it, not projected.  Signals
+THEORY-NOT-FOUND."
+  (let ((theory (ec:find-theory theory)))
+    (register-action-theory
+     (make-instance 'action-theory :name (ec:name-keyword name) :theory theory))))
+
 (defun all-action-theories ()
   "Return the list of all registered ACTION-THEORYs."
   (alexandria:hash-table-values *domains*))

@@ -64,7 +64,8 @@ theory of DOMAIN."
   (let ((theory (action-theory-theory domain))
         (unbound (unbound-term template bound)))
     (when unbound
-      (funcall complain "~a is neither a property in the head of the action nor bound by a quantifier"
+      (funcall complain "~a is neither a property in the head of the action nor bound by a ~
+                         quantifier"
                (ec:name-text unbound)))
     (multiple-value-bind (formula variables) (filled-in theory template)
       (handler-case

@@ -1,8 +1,8 @@
 ;;;; Coverage: what an exploration has made use of, of plans, action bindings and theory.
 ;;;;
-;;;; COVERAGE returns a value object made from the recorder of an exploration.  Counted are the forms
-;;;; that the evaluator knows, of all plans and helpers in the files that the exploration has run;
-;;;; the ways of conditions; the outcomes of the domain's action bindings; the axioms.
+;;;; COVERAGE returns a value object made from the recorder of an exploration.  Counted are the
+;;;; forms that the evaluator knows, of all plans and helpers in the files that the exploration
+;;;; has run; the ways of conditions; the outcomes of the domain's action bindings; the axioms.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 

@@ -1,8 +1,8 @@
 ;;;; Coverage as one self-contained HTML page: the plan files with their forms in colours.
 ;;;;
-;;;; Positions of forms are lines.  Where on its line a form begins is found by its operator, where it
-;;;; ends by the parentheses, so that strings and comments are skipped.  The colour of a character is
-;;;; that of the innermost form around it.
+;;;; Positions of forms are lines.  Where on its line a form begins is found by its operator,
+;;;; where it ends by the parentheses, so that strings and comments are skipped.  The colour of a
+;;;; character is that of the innermost form around it.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -142,7 +142,8 @@ it, in the order of the closing ones."
   (when entries
     (format stream "<h2>~a</h2>~%<ul>~%" (escaped title))
     (loop for (entry . covered) in entries
-          do (format stream "<li><span class=\"~:[never~;covered~]\">~a</span>~:[ (never)~;~]</li>~%"
+          do (format stream "<li><span class=\"~:[never~;covered~]\">~a</span>~
+                             ~:[ (never)~;~]</li>~%"
                      covered (escaped (funcall text entry)) covered))
     (format stream "</ul>~%")))
 
@@ -153,9 +154,9 @@ it, in the order of the closing ones."
             (escaped title) *style* (escaped title)
             (escaped (format nil "In the domain ~a: ~a." (ec:name-text (coverage-domain coverage))
                              (figures-text coverage))))
-    (format stream "<p><span class=\"covered\">evaluated</span> <span class=\"one-branch\">evaluated, ~
-                    but a condition took only one way</span> <span class=\"never\">never ~
-                    evaluated</span></p>~%")
+    (format stream "<p><span class=\"covered\">evaluated</span> ~
+                    <span class=\"one-branch\">evaluated, but a condition took only one way</span> ~
+                    <span class=\"never\">never evaluated</span></p>~%")
     (dolist (file (coverage-files coverage))
       (format stream "<h2>~a</h2>~%" (escaped file))
       (write-code (format nil "~{~a~%~}" (file-lines file)) (forms-in-file coverage file) stream))
@@ -164,7 +165,7 @@ it, in the order of the closing ones."
     (format stream "</body>~%</html>~%")))
 
 (defun write-coverage-html (coverage file)
-  "Write COVERAGE to FILE as one HTML page that needs nothing else, and return the true name of FILE.
+  "Write COVERAGE to FILE as one HTML page that needs nothing else, and return FILE's true name.
 The plan files are shown with their forms in colours.  FILE is replaced when the page is complete."
   (let* ((path (source:native-path file))
          (temporary (merge-pathnames (format nil "~a.part" (pathname-name path)) path)))

@@ -1,9 +1,10 @@
 ;;;; Recording which forms of plans are evaluated, which ways their conditions take, which outcomes
+;;;;
 ;;;; steps have and which axioms these make use of.
 ;;;;
-;;;; A RECORDER belongs to an exploration that records its coverage.  While it is in force, forms that
-;;;; have a source position are made into code that notes in a FORM-RECORD when it runs; without one
-;;;; code is as it always is.  See coverage.lisp for what is made of it.
+;;;; A RECORDER belongs to an exploration that records its coverage.  While it is in force, forms
+;;;; that have a source position are made into code that notes in a FORM-RECORD when it runs;
+;;;; without one code is as it always is.  See coverage.lisp for what is made of it.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -85,17 +86,24 @@ of the form around it which one runs."
 
 ;;; Steps
 
+(defun note-axioms (recorder axioms)
+  (dolist (axiom axioms)
+    (pushnew axiom (recorder-axioms recorder))))
+
 (defun note-step-taken (recorder state outcome next)
   "Note in RECORDER that OUTCOME led from STATE to NEXT."
   (let ((binding (outcome-binding outcome)))
     (pushnew (list* (action-binding-class binding) (action-binding-type binding)
                     (outcome-number outcome))
              (recorder-outcomes recorder) :test #'equal)
-    (dolist (axiom (ec:axioms-used state (outcome-event outcome) next))
-      (pushnew axiom (recorder-axioms recorder)))))
+    (note-axioms recorder (ec:axioms-used state next))))
 
-(defun note-initial-state (recorder state)
-  "Note in RECORDER what the theory says of the initial STATE."
-  (loop for (axiom) in (ec:initial-conditions state)
-        do (when (typep axiom 'ec:axiom)
-             (pushnew axiom (recorder-axioms recorder)))))
+(defun note-considered (recorder ground outcomes)
+  "Note in RECORDER that the OUTCOMES of an action were considered."
+  (dolist (outcome outcomes)
+    (when (outcome-event outcome)
+      (note-axioms recorder (ec:axioms-about-event ground (outcome-event outcome))))))
+
+(defun note-beginning (recorder ground)
+  "Note in RECORDER what the theory GROUND says of initial states."
+  (note-axioms recorder (ec:initial-axioms ground)))

@@ -1,10 +1,10 @@
 ;;;; Interleavings: the order in which parallel tasks take their turns, as decisions.
 ;;;;
-;;;; A TURN is what a strand does between two switches.  Where several strands are ready, a NODE, the
-;;;; first run takes the one that has waited for longest.  After the run its turns are compared (see
-;;;; races.lisp): only where two of them may not change places another order is noted as an
-;;;; alternative.  So branches that have nothing to do with each other are explored in one order.
-;;;; With :ALL every order is explored.
+;;;; A TURN is what a strand does between two switches.  Where several strands are ready, a NODE,
+;;;; the first run takes the one that has waited for longest.  After the run its turns are
+;;;; compared (see races.lisp): only where two of them may not change places another order is
+;;;; noted as an alternative.  So branches that have nothing to do with each other are explored in
+;;;; one order. With :ALL every order is explored.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 

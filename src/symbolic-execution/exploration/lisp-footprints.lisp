@@ -2,9 +2,10 @@
 ;;;;
 ;;;; The branches of a parallel form can change places if neither writes a variable that the other
 ;;;; uses.  A form is walked for the variables that it does not bind itself, and so are the plans
-;;;; and helpers that it calls.  Objects are looked at only as far as this: a form that calls nothing
-;;;; but functions known to change no object changes none.  What calls another function may do
-;;;; anything: its use of Lisp is UNKNOWN.  Entry points: FORM-USE, FUNCTION-USE, USES-CONFLICT-P.
+;;;; and helpers that it calls.  Objects are looked at only as far as this: a form that calls
+;;;; nothing but functions known to change no object changes none.  What calls another function
+;;;; may do anything: its use of Lisp is UNKNOWN.  Entry points: FORM-USE, FUNCTION-USE,
+;;;; USES-CONFLICT-P.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -98,6 +99,8 @@ arguments.")
                   (let ((name (second form)))
                     (when (and (symbolp name) (not (local-function-p name environment)))
                       (note-call use (list name) environment))))
+                 ;; What is left runs its cleanup forms.
+                 ((eq (first form) 'unwind-protect) (setf (lisp-use-unknown-p use) t))
                  ((special-operator-p (first form)))
                  ((macro-function (first form) environment))
                  (t (note-call use form environment)))
@@ -124,12 +127,17 @@ arguments.")
                                       ,@(plan:plan-body plan)))))
                use)))))
 
+(defun apart-p (use)
+  "Return true if code with USE looks at nothing outside of itself."
+  (and (not (lisp-use-unknown-p use)) (null (lisp-use-reads use)) (null (lisp-use-writes use))))
+
 (defun uses-conflict-p (one other)
   "Return true if code with the LISP-USEs ONE and OTHER may not change places."
   (flet ((overlap-p (writes use)
            (or (intersection writes (lisp-use-reads use))
                (intersection writes (lisp-use-writes use)))))
-    (and (or (lisp-use-unknown-p one) (lisp-use-unknown-p other)
+    (and (not (apart-p one)) (not (apart-p other))
+         (or (lisp-use-unknown-p one) (lisp-use-unknown-p other)
              (overlap-p (lisp-use-writes one) other)
              (overlap-p (lisp-use-writes other) one))
          t)))

@@ -112,7 +112,7 @@ NIL if there is no path."
         (*recorder* (exploration-recorder exploration)))
     (when (exploration-consistent-p exploration)
       (when (and *recorder* (null prefix))
-        (note-initial-state *recorder* (first (path-states path))))
+        (note-beginning *recorder* (action-theory-ground (exploration-domain exploration))))
       (let ((output (run-plan-on path (interpreted-plan (exploration-plan exploration))
                                  (mapcar #'argument-value arguments))))
         (note-races path)

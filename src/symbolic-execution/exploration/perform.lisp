@@ -103,6 +103,8 @@ the state after it, and the text of DESIGNATOR."
           (let ((outcomes (action-outcomes (path-domain path) designator
                                            :plan plan :position position)))
             (note-outcomes path outcomes)
+            (when *recorder*
+              (note-considered *recorder* (action-theory-ground (path-domain path)) outcomes))
             ;; Its arguments may have been decided meanwhile.
             (multiple-value-bind (recorded next) (recorded-step path description)
               (if recorded

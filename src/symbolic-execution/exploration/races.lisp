@@ -1,14 +1,15 @@
 ;;;; Races: where another order of turns may make a difference.
 ;;;;
-;;;; Two turns CONFLICT if one changes what the other looks at or changes: fluents of the theory, the
-;;;; truth of the explored state constraint, variables of Lisp.  A turn comes BEFORE another one if
-;;;; it is earlier and they conflict or belong together, or by way of others.  For each turn the last
-;;;; earlier one is sought that conflicts with it and does not come before what its strand did
-;;;; before: there the other order is to be explored, too.  This is dynamic partial-order reduction
-;;;; (Flanagan and Godefroid, 2005), worked out after each run; since a run notes alternatives only at
-;;;; nodes on its own path, it does not matter in which order runs are made.  A strand that was ready
-;;;; but had no turn any more, because it evaporated or the path ended, is taken at the last node
-;;;; where it could be.  Entry points: NEW-SCHEDULE, NOTE-RACES.
+;;;; Two turns CONFLICT if one changes what the other looks at or changes: fluents of the theory,
+;;;; the truth of the explored state constraint, variables of Lisp.  A turn comes BEFORE another
+;;;; one if it is earlier and they conflict or belong together, or by way of others.  For each
+;;;; turn the last earlier one is sought that conflicts with it and does not come before what its
+;;;; strand did before: there the other order is to be explored, too.  This is dynamic
+;;;; partial-order reduction (Flanagan and Godefroid, 2005), worked out after each run; since a
+;;;; run notes alternatives only at nodes on its own path, it does not matter in which order runs
+;;;; are made.  A strand that was ready but had no turn any more, because it evaporated or the
+;;;; path ended, is taken at the last node where it could be.  Entry points: NEW-SCHEDULE,
+;;;; NOTE-RACES.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -44,8 +45,8 @@ comes true: a list of a set of fluents and numbers of events; the set is T if al
         (t (cons (ec:formula-footprint formula) (formula-events formula)))))
 
 (defun new-schedule (domain interleavings formula span uses)
-  "Return the schedule of a new run, or NIL if orders are not to be pruned.  USES is a table for what
-code of branches does."
+  "Return the schedule of a new run, or NIL if orders are not to be pruned.  USES is a table for
+what code of branches does."
   (and (eq interleavings t)
        (make-schedule :uses uses
                       :visible (visible-steps formula span)
@@ -142,6 +143,13 @@ must come before J, as bits."
                  (find-if (lambda (turn) (family-turn-p branch turn)) turns :start (1+ j)))
                (remove-duplicates branches))))
 
+(defun effectless-p (turn)
+  "Return true if TURN changes nothing: where its branch is given up, it does not matter whether it
+was there."
+  (and (zerop (turn-changes turn))
+       (null (lisp-use-writes (turn-use turn)))
+       (not (lisp-use-unknown-p (turn-use turn)))))
+
 (defun note-first-ends (path turns j own)
   "The strand of turn J among TURNS went on as soon as one of its branches had ended: note that each
 of these is to end before the turns of the others, as far as they are not in OWN."
@@ -149,7 +157,8 @@ of these is to end before the turns of the others, as far as they are not in OWN
          (ended (ended-branches turns j)))
     (loop for i from (1- j) downto 0
           for turn = (svref turns i)
-          when (and (turn-node turn) (around-p strand turn) (not (logbitp i own)))
+          when (and (turn-node turn) (around-p strand turn) (not (logbitp i own))
+                    (not (effectless-p turn)))
             do (when (ready-at-p strand turn)
                  (note-order path (turn-node turn) strand '()))
                (dolist (branch (remove (branch-below strand turn) ended))
