@@ -133,3 +133,39 @@
    (list (twice-listed one) (typecase one (small-number :small) (t :big))
          (handler-case (error 'odd-thing :flag ?flag)
            (odd-thing (c) (if (odd-flag c) :on :off))))))"))
+
+(test declared-types-of-symbolic-values-are-decided
+  (is-noted (:null :true) "
+(def-top-level-cram-function lamp-plan (?flag)
+  (discrepancy-finder.tests::note-down
+   (handler-case (progn (the null ?flag) :null)
+     (type-error () :true))))")
+  (is (= 1 (symbolic:exploration-paths (nth-value 1 (notes-of "
+(def-top-level-cram-function lamp-plan (?flag)
+  (let ((flag (the symbol ?flag)))
+    (discrepancy-finder.tests::note-down (consp flag))))"))))))
+
+(test restarts-take-symbolic-values
+  (is-noted (:yes :no) "
+(def-top-level-cram-function lamp-plan (?flag)
+  (discrepancy-finder.tests::note-down
+   (restart-case (handler-bind ((error (lambda (c)
+                                         (declare (ignore c))
+                                         (invoke-restart 'use ?flag))))
+                   (error \"no\"))
+     (use (flag) (if flag :yes :no)))))"))
+
+(test unwinding-and-jumps-keep-symbolic-values
+  (is-noted ((:cleaned :yes) (:cleaned :no)) "
+(def-top-level-cram-function lamp-plan (?flag)
+  (let* ((log '())
+         (flag (block nil
+                 (tagbody
+                  again
+                    (catch 'out
+                      (unwind-protect
+                           (mapc (lambda (x) (when (= x 2) (return (values ?flag x))))
+                                 '(1 2 3))
+                        (push :cleaned log)))
+                    (go again)))))
+    (discrepancy-finder.tests::note-down (append log (list (if flag :yes :no))))))"))

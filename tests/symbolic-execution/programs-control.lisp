@@ -114,6 +114,23 @@
   (ctypecase 1 (integer :i))
   (let ((x 1)) (handler-bind ((error (lambda (e) (store-value "s" e)))) (list (ctypecase x (string
     :s) (symbol :y)) x)))
+  ;; a block that is entered again is another one
+  (let ((f nil) (log '()))
+    (dotimes (i 2 (reverse log))
+      (block b
+        (if f
+            (handler-case (funcall f) (control-error () (push :gone log)))
+            (setq f (lambda () (return-from b))))
+        (push i log))))
+  (let ((f nil) (n 0))
+    (loop repeat 2
+          collect (block nil
+                    (tagbody
+                       (when f (return (handler-case (funcall f) (control-error () :gone))))
+                       (setq f (lambda () (funcall (lambda () (go out)))))
+                       (incf n)
+                     out)
+                    n)))
   ;; multiple values
   (values) (values 1) (values 1 2) (multiple-value-list (values)) (multiple-value-list (floor 7 2))
   (nth-value 1 (values 1 2 3)) (nth-value 5 (values 1 2))

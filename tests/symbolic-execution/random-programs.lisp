@@ -53,7 +53,11 @@
           (some-leaf world))))
 
 (define-form-maker some-arithmetic (world depth)
-  `(,(pick-one '(+ - * min max logand logxor)) ,(some-form world depth) ,(some-form world depth)))
+  (let ((one (some-form world depth)) (other (some-form world depth)))
+    ;; Numbers must not grow beyond all bounds.
+    (if (zerop (random 6))
+        `(* (mod ,one 1000) (mod ,other 1000))
+        `(,(pick-one '(+ - min max logand logxor)) ,one ,other))))
 
 (define-form-maker some-quotient (world depth)
   `(quotient ',(pick-one '(floor truncate mod rem))
@@ -119,7 +123,7 @@ know of it."
        (tagbody
           ,again
           (incf ,n)
-          (when ,(some-truth (with-in-world world :variable n) depth) (go ,end))
+          (when ,(some-truth world depth) (go ,end))
           (progn ,(some-form world depth))
           ,(if (zerop (random 2))
                `(when (< ,n 3) (go ,again))

@@ -38,10 +38,17 @@ that binds it, or globally."
      (values (first binding) (second binding)))
     (t (unsupported form "it has a binding that is neither a variable nor (variable form)"))))
 
+(defun special-value (name value)
+  "Return VALUE, decided, for the special variable NAME.  A list of restarts holds functions of the
+plan, and nothing else that compiled code looks at."
+  (if (eq name 'sb-kernel:*restart-clusters*)
+      value
+      (decided value "a special variable")))
+
 (defun call-with-special (name value function)
   "Bind the special variable NAME to VALUE and call FUNCTION."
   (declare (type function function))
-  (let ((value (decided value "a special variable")))
+  (let ((value (special-value name value)))
     (if *path*
         (with-forgotten-writes ((list name))
           (progv (list name) (list value) (funcall function)))
@@ -140,9 +147,8 @@ VALUES, and runs INSIDE in it."
       (frame-code layout values
                   (code (frame)
                     (let ((names (mapcar #'car bound))
-                          (values (loop for (nil . index) in bound
-                                        collect (decided (svref frame index)
-                                                         "a special variable"))))
+                          (values (loop for (name . index) in bound
+                                        collect (special-value name (svref frame index)))))
                       (if *path*
                           (with-forgotten-writes (names)
                             (progv names values (run inside frame)))

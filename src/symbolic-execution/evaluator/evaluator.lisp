@@ -2,10 +2,10 @@
 ;;;;
 ;;;; ANALYZE turns a form into CODE, a function of a frame, once; calling it evaluates the form.
 ;;;; Special operators, and macros whose expansions would be SBCL's internal matter, have an
-;;;; analyzer each; every other macro is expanded.  Values may be symbolic: an IF on one is a decision, and
-;;;; of the functions that are called only those get one that can do something with it (calls.lisp).
-;;;; Interpreted functions are real functions and take them as they are.  Where nothing is symbolic
-;;;; this is an ordinary evaluator: EVALUATE.
+;;;; analyzer each; every other macro is expanded.  Values may be symbolic: an IF on one is a
+;;;; decision, and of the functions that are called only those get one that can do something with
+;;;; it (calls.lisp).  Interpreted functions are real functions and take them as they are.  Where
+;;;; nothing is symbolic this is an ordinary evaluator: EVALUATE.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 

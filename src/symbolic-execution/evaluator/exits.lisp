@@ -2,11 +2,22 @@
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
-(defun exit-tag-place (exit)
-  "Return the place of the tag of EXIT, which must have one."
-  (or (exit-place exit)
-      (setf (exit-place exit)
-            (make-place (exit-layout exit) (add-element (exit-layout exit))))))
+(defun tag-place (exit context)
+  "Return the place of the tag of EXIT for forms of CONTEXT.  A function remembers the tags that it
+needs when it is made: the block or tagbody may be entered again in the same frame."
+  (cond ((eq context (exit-context exit))
+         (or (exit-place exit)
+             (setf (exit-place exit)
+                   (make-place (exit-layout exit) (add-element (exit-layout exit))))))
+        ((cdr (assoc exit (context-captured context))))
+        (t (let* ((layout (context-layout context))
+                  (place (make-place layout (add-element layout))))
+             (push (cons exit place) (context-captured context))
+             place))))
+
+(defun tag-reader (exit scope)
+  "Return the code that reads the tag of EXIT."
+  (frame-reader (tag-place exit (scope-context scope)) scope))
 
 (defun analyze-with-frame (scope analyzer)
   "Call ANALYZER with SCOPE, or one with a new frame if SCOPE has none, and return its code."
@@ -22,7 +33,8 @@
     (analyze-with-frame
      scope
      (lambda (scope)
-       (let* ((exit (make-exit :layout (first (scope-layouts scope))))
+       (let* ((exit (make-exit :layout (first (scope-layouts scope))
+                               :context (scope-context scope)))
               (inner (extend-scope scope :blocks (acons name exit '())))
               (run (let ((*exits* (cons exit *exits*)) (*tails* (cons exit *tails*)))
                      (analyze-body body inner))))
@@ -62,7 +74,7 @@
              (let ((value (analyze value scope)) (jump (make-jump exit 0)))
                (declare (type function value))
                (code (frame) (values jump (multiple-value-list (run value frame))))))
-            (t (let ((tag (frame-reader (exit-tag-place exit) scope))
+            (t (let ((tag (tag-reader exit scope))
                      (value (analyze value scope)))
                  (declare (type function value tag))
                  (code (frame) (throw (run tag frame) (run value frame)))))))))
@@ -79,7 +91,8 @@
   (analyze-with-frame
    scope
    (lambda (scope)
-     (let* ((exit (make-exit :layout (first (scope-layouts scope))))
+     (let* ((exit (make-exit :layout (first (scope-layouts scope))
+                               :context (scope-context scope)))
             (tags (remove-if-not #'tag-p (rest form)))
             (inner (extend-scope scope
                                  :tags (loop for tag in tags for segment from 1
@@ -135,7 +148,7 @@ last form of each must not be taken for one of the tagbody's."
             (code (frame)
               (when *path* (count-jump *path*))
               jump))
-          (let ((tag (frame-reader (exit-tag-place exit) scope)))
+          (let ((tag (tag-reader exit scope)))
             (declare (type function tag))
             (code (frame)
               (when *path* (count-jump *path*))

@@ -26,17 +26,34 @@
                                                      allow-other-keys keyp aux))
             (analyze-simple-lambda required forms specials scope))))))
 
-(defun function-code (scope maker run)
-  "Return the code that makes a function: MAKER makes it of a frame and RUN, the code of its body.
-One that was made before a run of a plan and closes over variables remembers their values there."
+(defun function-code (scope context maker run)
+  "Return the code that makes a function: MAKER makes it of a frame and RUN, the code of its body,
+which is of CONTEXT.  One that was made before a run of a plan and closes over variables remembers
+their values there."
   (declare (type function maker run))
-  (if (null (scope-layouts scope))
-      (code (frame) (make-interpreted-function (funcall maker frame run)))
-      (let ((remembering (code (frame)
-                           (when *path* (note-frames (svref frame 0)))
-                           (run run frame))))
+  (let* ((captured (context-captured context))
+         (readers (loop for (exit) in captured collect (tag-reader exit scope)))
+         (indices (loop for (nil . place) in captured collect (place-index place)))
+         (remembering (code (frame)
+                        (when *path* (note-frames (svref frame 0)))
+                        (run run frame)))
+         (closed (and (scope-layouts scope) t)))
+    (if captured
         (code (frame)
-          (make-interpreted-function (funcall maker frame (if *path* run remembering)))))))
+          (make-interpreted-function
+           (funcall maker frame (code-with-tags (if (or *path* (not closed)) run remembering)
+                                                indices (evaluate-arguments readers frame)))))
+        (code (frame)
+          (make-interpreted-function
+           (funcall maker frame (if (or *path* (not closed)) run remembering)))))))
+
+(defun code-with-tags (run indices tags)
+  "Return the code that stores TAGS at INDICES of its frame and then does what RUN does."
+  (declare (type function run))
+  (code (frame)
+    (loop for tag in tags for index fixnum in indices
+          do (setf (svref frame index) tag))
+    (run run frame)))
 
 (defvar *noted-frames* (make-hash-table :test 'eq :weakness :key :synchronized t)
   "The path on which the values in a frame were last noted.")
@@ -52,11 +69,13 @@ One that was made before a run of a plan and closes over variables remembers the
 
 (defun analyze-simple-lambda (required forms specials scope)
   (multiple-value-bind (inner layout) (scope-with-frame scope required)
-    (let* ((run (analyze-body forms (scope-with-specials inner specials)))
+    (let* ((context (make-context :layout layout))
+           (inner (extend-scope inner :context context))
+           (run (analyze-body forms (scope-with-specials inner specials)))
            (size (layout-size layout)))
       (declare (type function run) (type fixnum size))
       (function-code
-       scope
+       scope context
        (if (= size (1+ (length required)))
            (case (length required)
              (0 (lambda (frame run)
@@ -106,7 +125,8 @@ One that was made before a run of a plan and closes over variables remembers the
 (defun analyze-general-lambda (name forms specials scope parameters)
   (declare (ignore name))
   (let* ((layout (make-layout :size 3))
-         (inner (extend-scope scope :layout layout))
+         (context (make-context :layout layout))
+         (inner (extend-scope scope :layout layout :context context))
          (run (bind-in-order (parameter-bindings parameters) inner specials
                              (lambda (scope)
                                (analyze-body forms (scope-with-specials scope specials)))))
@@ -116,7 +136,7 @@ One that was made before a run of a plan and closes over variables remembers the
                        (+ minimum (length (parameters-optional parameters))))))
     (declare (type function run) (type fixnum size minimum))
     (function-code
-     scope
+     scope context
      (lambda (frame run)
        (declare (type function run))
        (lambda (&rest arguments)

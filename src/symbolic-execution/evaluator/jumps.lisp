@@ -22,8 +22,10 @@
 
 (defstruct (exit (:copier nil))
   "What is known of a block or tagbody: LAYOUT is that of the frame around it, SEEN is true if forms
-return jumps to it, PLACE is where its tag is if there are throws to it."
+return jumps to it, PLACE is where its tag is if there are throws to it, CONTEXT the function in
+which it is."
   (layout nil :read-only t)
+  (context nil :read-only t)
   (seen nil)
   (place nil))
 

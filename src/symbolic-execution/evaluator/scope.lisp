@@ -21,15 +21,22 @@
   (layout nil :type layout :read-only t)
   (index 0 :type fixnum :read-only t))
 
+(defstruct (context (:copier nil))
+  "A function around a form: LAYOUT is that of its arguments, CAPTURED an alist from the exits
+outside of it that are taken from inside to the places of their tags in that frame."
+  (layout nil :type layout :read-only t)
+  (captured '() :type list))
+
 (defstruct (scope (:copier nil))
   "LAYOUTS are those of the visible frames, the innermost first.  VARIABLES, FUNCTIONS, BLOCKS and
-TAGS are alists from name to place (or :SPECIAL, :SYMBOL-MACRO, :MACRO) or exit.  AUGMENTATION is
-what the environment has more than that of OUTER."
+TAGS are alists from name to place (or :SPECIAL, :SYMBOL-MACRO, :MACRO) or exit.  CONTEXT is the
+innermost function.  AUGMENTATION is what the environment has more than that of OUTER."
   (layouts '() :type list :read-only t)
   (variables '() :type list :read-only t)
   (functions '() :type list :read-only t)
   (blocks '() :type list :read-only t)
   (tags '() :type list :read-only t)
+  (context nil :type (or null context) :read-only t)
   (outer nil :type (or null scope) :read-only t)
   (augmentation '() :type list :read-only t)
   (known-environment :none))
@@ -46,14 +53,15 @@ what the environment has more than that of OUTER."
                         environment))))
     known))
 
-(defun extend-scope (scope &key layout variables functions blocks tags augmentation)
+(defun extend-scope (scope &key layout variables functions blocks tags augmentation
+                             (context (scope-context scope)))
   "Return SCOPE with more in it; LAYOUT is that of a new frame."
   (make-scope :layouts (if layout (cons layout (scope-layouts scope)) (scope-layouts scope))
               :variables (append variables (scope-variables scope))
               :functions (append functions (scope-functions scope))
               :blocks (append blocks (scope-blocks scope))
               :tags (append tags (scope-tags scope))
-              :outer scope :augmentation augmentation))
+              :context context :outer scope :augmentation augmentation))
 
 ;;; Names
 

@@ -46,7 +46,7 @@
           (checked (checked-type type)))
       (if (eq checked t)
           code
-          (checking-code code checked scope)))))
+          (checking-code code checked (make-site form))))))
 
 (defun checked-type (type)
   "Return the type, of the first value, that THE with TYPE checks."
@@ -57,12 +57,15 @@
           ((and (consp type) (eq (first type) 'values)) (checked-type type))
           (t (or type t)))))
 
-(defun checking-code (code type scope)
-  (declare (type function code) (ignore scope))
+(defun checking-code (code type site)
+  "Return CODE with a check that the first of its values is of TYPE; a jump is none."
+  (declare (type function code))
   (let ((parsed (sb-kernel:specifier-type type)))
     (flet ((check (value)
-             (unless (or (symbolic-value-p value) (jump-p value)
-                         (sb-kernel:%%typep value parsed))
+             (unless (cond ((jump-p value))
+                           ((symbolic-value-p value)
+                            (truth (lifted-typep value type) (site-description site)))
+                           (t (sb-kernel:%%typep value parsed)))
                (error 'type-error :datum value :expected-type type))))
       (code (frame)
         (multiple-value-call (lambda (&rest values)
