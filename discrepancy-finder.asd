@@ -134,8 +134,9 @@ The environment variable CXX names another compiler than g++."))
                              (:file "values")))
                (:module "reasoning"
                 :serial t
-                :components ((:file "conditions") (:file "clauses") (:file "encoding") (:file "numeric-fluents")
-                             (:file "completion") (:file "propagation") (:file "reasoner") (:file "asserting")
+                :components ((:file "conditions") (:file "clauses") (:file "encoding")
+                             (:file "numeric-fluents") (:file "completion") (:file "propagation")
+                             (:file "reasoner") (:file "asserting")
                              (:file "atoms") (:file "questions") (:file "numbers")
                              (:file "models") (:file "queries") (:file "core")
                              (:file "reasons") (:file "narration") (:file "why")
@@ -227,8 +228,9 @@ The environment variable CXX names another compiler than g++."))
                (:module "values"
                 :serial t
                 :components ((:file "symbolic-values") (:file "deciding")
-                             (:file "deciding-objects") (:file "globals") (:file "interpreted-functions")
-                             (:file "intervals") (:file "arguments")))
+                             (:file "deciding-objects") (:file "globals")
+                             (:file "interpreted-functions") (:file "intervals")
+                             (:file "arguments")))
                (:module "lifted"
                 :serial t
                 :components ((:file "table") (:file "equality") (:file "arithmetic")
@@ -317,6 +319,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "random-formulas") (:file "random-theories")
                              (:file "shrinking") (:file "differential")
                              (:file "progression-random") (:file "progression")
+                             (:file "progressed-states")
                              (:file "why-random")))
                (:file "prolog") (:file "prolog-lazy-lists") (:file "prolog-predicates")
                (:file "designators") (:file "designators-resolved")

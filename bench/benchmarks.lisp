@@ -63,7 +63,8 @@ own references and check sorts, and by raw calls."
                                (z3::z3-inc-ref pointer negation)
                                (setf (cffi:mem-aref arguments :uint64 0) (z3::term-pointer p)
                                      (cffi:mem-aref arguments :uint64 1) negation)
-                               (z3::z3-inc-ref pointer (z3::z3-mk-and pointer 2 arguments)))))))))))))))
+                               (z3::z3-inc-ref pointer
+                                               (z3::z3-mk-and pointer 2 arguments)))))))))))))))
 
 (defun compiled-peer ()
   "Compile steps.cpp, if it has changed, and return the program's path."

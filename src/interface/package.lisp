@@ -43,7 +43,8 @@
                 #:trace-initial-state #:trace-steps #:trace-final-state #:execution-trace
                 #:plan-broke
                 #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
-                #:domain-not-found #:action-problem)
+                #:unknown-argument-type #:file-output-refused #:invalid-trace
+                #:coverage-not-recorded #:domain-not-found #:action-problem)
   (:import-from #:discrepancy-finder.discrepancy
                 #:define-abstraction #:load-domain #:domain
                 #:find-discrepancies #:search-result #:result-status #:result-reason
@@ -106,6 +107,7 @@
    #:projection-error #:unknown-parameter #:impossible-parameter #:unknown-body
    #:missing-robot-part
    #:symbolic-execution-error #:plan-broke #:unsupported-form #:nondeterministic-plan
+   #:unknown-argument-type #:file-output-refused #:invalid-trace #:coverage-not-recorded
    #:action-problem
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:invalid-confidence #:unknown-confidence-rule #:invalid-argument

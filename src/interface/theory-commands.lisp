@@ -16,7 +16,8 @@ Event Calculus Reasoner, others hold define-theory."
   "Return the value of --horizon in OPTIONS, which THEORY may need."
   (let ((last (getf options :horizon)))
     (unless (or last (ec:theory-time-range theory))
-      (usage-problem "~@[~a: ~]theory ~a says nothing of timepoints: give the last one by --horizon."
+      (usage-problem "~@[~a: ~]theory ~a says nothing of timepoints: give the last one by ~
+                      --horizon."
                      (ec:theory-file theory) (ec:theory-name theory)))
     (when (and last (minusp last))
       (usage-problem "--horizon takes a timepoint, not ~d." last))

@@ -197,8 +197,8 @@ Of what the compiler says meanwhile the warnings are printed, a line each."
         inner)))
 
 (defun evaluate-form (form file line evaluator)
-  "Call EVALUATOR with FORM, which begins at LINE of FILE; an error is a SOURCE-ERROR if it does not say itself
-where it is."
+  "Call EVALUATOR with FORM, which begins at LINE of FILE; an error is a SOURCE-ERROR if it does not
+say itself where it is."
   (handler-bind ((error (lambda (condition)
                           (unless (self-explaining-p condition)
                             (loading-problem condition (native-name file) line))))

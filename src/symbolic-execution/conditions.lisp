@@ -83,6 +83,20 @@ trace cannot be written as JSON."))
   (:documentation "Signaled when a plan opens a file for output under symbolic execution, unless
 :FILE-OUTPUT allows it."))
 
+(define-condition unknown-argument-type (symbolic-execution-error)
+  ((parameter :initarg :parameter :reader unknown-argument-type-parameter
+              :documentation "The parameter, a symbol.")
+   (type :initarg :type :reader unknown-argument-type-type :documentation "Its type, as given.")
+   (sorts :initarg :sorts :reader unknown-argument-type-sorts
+          :documentation "The names, keywords, of the theory's sorts."))
+  (:report (lambda (condition stream)
+             (with-slots (parameter type sorts) condition
+               (format stream "The parameter ~(~a~) cannot be of type ~(~s~): it must be boolean, ~
+                               integer, (integer low high), real, (real low high), ~
+                               (member object ...)~:[~; or a sort of the theory,~:*~{ ~a~^,~}~]."
+                       parameter type (mapcar #'ec:name-text sorts)))))
+  (:documentation "Signaled when a symbolic argument of a plan has a type that is none."))
+
 (define-condition domain-not-found (symbolic-execution-error)
   ((name :initarg :name :reader domain-not-found-name :documentation "The name in question."))
   (:report (lambda (condition stream)

@@ -8,8 +8,8 @@
 ;;;; again from the start; with each repetition the watcher's patience doubles, so that frequent
 ;;;; timers delay a long check but cannot prevent its end.
 ;;;;
-;;;; Timeouts are the watcher's business, too: the timer of libz3 4.8.12 can end in a deadlock of the
-;;;; checking thread, which nothing but SIGKILL ends, and doubles the time of a small check.
+;;;; Timeouts are the watcher's business, too: the timer of libz3 4.8.12 can end in a deadlock of
+;;;; the checking thread, which nothing but SIGKILL ends, and doubles the time of a small check.
 ;;;;
 ;;;; The watcher is started by a check and ends after a second without one, or before an image is
 ;;;; saved.  Entry point: CALL-INTERRUPTIBLY.

@@ -31,10 +31,12 @@
                    (reverse (symbol-value 'discrepancy-finder-user::*log*)))))))
 
 (defparameter *different-rows*
-  '(("(type swimming)" . "What has no action binding is a gap in the domain, not the plan's matter.")
+  '(("(type swimming)"
+     . "What has no action binding is a gap in the domain, not the plan's matter.")
     ("(task-path a)" . "The path ends in the name of the plan that the row is made.")
     ("(report (retry))" . "The sentence names the plan that the row is made.")
-    ("(return-from out 1)" . "The evaluator's jump is noticed where it begins, also a CONTROL-ERROR."))
+    ("(return-from out 1)"
+     . "The evaluator's jump is noticed where it begins, also a CONTROL-ERROR."))
   "Parts of the forms of rows that show something else under symbolic execution, and why.")
 
 (defun explored-p (row)

@@ -120,7 +120,8 @@ what a file means must have a value that has a meaning here."
     (flet ((event-p (name) (find-declared-symbol vocabulary name "event")))
       (dolist (name others)
         (unless (eq (null (event-p first)) (null (event-p name)))
-          (statement-problem statement "~a is ~:[a fluent~;an event~] and ~a ~:[a fluent~;an event~]"
+          (statement-problem statement
+                             "~a is ~:[a fluent~;an event~] and ~a ~:[a fluent~;an event~]"
                              first (event-p first) name (event-p name)))))))
 
 (defun e-exclusions (vocabulary statements)

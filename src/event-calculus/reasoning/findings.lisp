@@ -339,8 +339,9 @@ conditions."
 
 (defun check-theory (theory &key horizon)
   "Return the list of the FINDINGs about THEORY, a theory or its name: is it inconsistent, which
-axioms have no instance or never apply, which events can never happen or change nothing, which fluents never change, are
-never read, or are open at first, which sorts have no elements and which functions no values.
+axioms have no instance or never apply, which events can never happen or change nothing, which
+fluents never change, are never read, or are open at first, which sorts have no elements and which
+functions no values.
 HORIZON is as for MAKE-REASONER; where the theory has none the last timepoint is 3, or the last that
 an axiom gives by number.  Signals THEORY-NOT-FOUND, NO-HORIZON."
   (let* ((theory (as-theory theory))

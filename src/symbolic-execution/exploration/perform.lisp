@@ -69,8 +69,8 @@ DESCRIPTION and still remembers them, else NIL."
           (values (car value) (cdr value)))))))
 
 (defun decide-new-step (path designator description position outcomes)
-  "Decide for one of OUTCOMES of DESIGNATOR, performed at POSITION, and return it and the state after
-it."
+  "Decide for one of OUTCOMES of DESIGNATOR, performed at POSITION, and return it and the state
+after it."
   (let ((alternatives (path-alternatives path)))
     (destructuring-bind (outcome . next)
         (decide path description (step-options path outcomes) :position position)

@@ -113,7 +113,8 @@ are EXHAUSTIVE and all but the last are impossible the last one need not be aske
 proposition.  The other possible ones are noted as alternatives.  OPTIONS may be a function that
 returns this list and the value of EXHAUSTIVE: a repetition of the decision calls it only if it
 must.  It may ask the path's solver.  EXHAUSTIVE: one of the propositions is true in any case.
-POSITION is where in the source that is, if DESCRIPTION does not say.  Abandons PATH if none is possible."
+POSITION is where in the source that is, if DESCRIPTION does not say.  Abandons PATH if none is
+possible."
   (outside-the-plan (path)
     (check-deadline path)
     (let ((recorded (next-recorded path)))

@@ -6,20 +6,6 @@
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
-(define-condition unknown-argument-type (symbolic-execution-error)
-  ((parameter :initarg :parameter :reader unknown-argument-type-parameter
-              :documentation "The parameter, a symbol.")
-   (type :initarg :type :reader unknown-argument-type-type :documentation "Its type, as given.")
-   (sorts :initarg :sorts :reader unknown-argument-type-sorts
-          :documentation "The names, keywords, of the theory's sorts."))
-  (:report (lambda (condition stream)
-             (with-slots (parameter type sorts) condition
-               (format stream "The parameter ~(~a~) cannot be of type ~(~s~): it must be boolean, ~
-                               integer, (integer low high), real, (real low high), ~
-                               (member object ...)~:[~; or a sort of the theory,~:*~{ ~a~^,~}~]."
-                       parameter type (mapcar #'ec:name-text sorts)))))
-  (:documentation "Signaled when a symbolic argument of a plan has a type that is none."))
-
 (defun number-type-p (type name)
   "Return true if TYPE is NAME or a list of it and two rationals or *."
   (or (eq type name)
