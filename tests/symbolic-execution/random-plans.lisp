@@ -141,7 +141,7 @@
   "Return the text of the plan random-plan, a function of SEED."
   (let ((*random-state* (sb-ext:seed-random-state seed)) (*mark* 0)
         (*package* (find-package '#:discrepancy-finder.tests))
-        (*print-pretty* nil) (*print-circle* nil))
+        (*print-pretty* nil) (*print-circle* nil) (*print-length* nil) (*print-level* nil))
     (remove-package-prefix
      (prin1-to-string
       `(def-top-level-cram-function random-plan (?flag ?item ?count)
