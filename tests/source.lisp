@@ -60,3 +60,17 @@
     (signals-with (source:source-error ":1: ") (source:read-source file)))
   (signals-with (source:source-error "folder")
     (source:read-source (namestring (uiop:temporary-directory)))))
+
+(test what-the-debugger-says-is-not-lost
+  "Where nobody handles an error, what is said of it goes where *ERROR-OUTPUT* was."
+  (with-file (file "(invoke-debugger (make-condition 'simple-error
+                                     :format-control \"nobody handles this\"))")
+    (is (search "nobody handles this"
+                (with-output-to-string (*error-output*)
+                  (catch 'left
+                    (let ((sb-ext:*invoke-debugger-hook*
+                            (lambda (condition hook)
+                              (declare (ignore hook))
+                              (format *error-output* "~a" condition)
+                              (throw 'left nil))))
+                      (source:load-source file))))))))

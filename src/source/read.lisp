@@ -172,13 +172,22 @@ file and line in front of it.")
                     (one-line (sb-kernel::program-error-message condition)))
                    (t (condition-sentence condition)))))
 
+(defun debugger-hook-with-errors (hook errors)
+  "Return a value of *INVOKE-DEBUGGER-HOOK* that does as HOOK with ERRORS for *ERROR-OUTPUT*."
+  (lambda (condition self)
+    (let ((*error-output* errors))
+      (when hook
+        (funcall hook condition self)))))
+
 (defun call-with-warning-lines (function)
   "Call FUNCTION with a function that it calls with the file and the line, or NIL, that it is at.
 Of what the compiler says meanwhile the warnings are printed, a line each."
   (let ((errors *error-output*)
         (file nil)
         (line nil))
-    (let ((*error-output* (make-broadcast-stream)))
+    (let ((sb-ext:*invoke-debugger-hook*
+            (debugger-hook-with-errors sb-ext:*invoke-debugger-hook* errors))
+          (*error-output* (make-broadcast-stream)))
       (handler-bind ((warning (lambda (condition)
                                 (unless (typep condition 'sb-kernel:redefinition-warning)
                                   (format errors "~&~a~@[:~d~]: warning: ~a~%" file line
