@@ -77,11 +77,11 @@ trace cannot be written as JSON."))
   ((file :initarg :file :reader file-output-refused-file :documentation "The file's name.")
    (plan :initarg :plan :reader file-output-refused-plan :documentation "The plan's name."))
   (:report (lambda (condition stream)
-             (format stream "The plan ~(~a~) opens the file ~a for output; on each path it would ~
-                             do so again, and that cannot be undone (:file-output t allows it)."
+             (format stream "The plan ~(~a~) changes the file ~a; on each path it would do so ~
+                             again, and that cannot be undone (:file-output t allows it)."
                      (file-output-refused-plan condition) (file-output-refused-file condition))))
-  (:documentation "Signaled when a plan opens a file for output under symbolic execution, unless
-:FILE-OUTPUT allows it."))
+  (:documentation "Signaled when a plan opens a file for output, renames or deletes one under
+symbolic execution, unless :FILE-OUTPUT allows it."))
 
 (define-condition unknown-argument-type (symbolic-execution-error)
   ((parameter :initarg :parameter :reader unknown-argument-type-parameter

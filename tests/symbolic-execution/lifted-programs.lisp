@@ -229,6 +229,7 @@
     ;; control
     (case e (:a 1) ((:b :c) 2)) (ecase e (:a 1) (:b 2)) (case f ((nil) 0) (:a 1) (t 2))
     (let ((z (if b x y))) (if (plusp z) z (- z))) (block nil (when b (return x)) e)
+    (catch e (throw f 1)) (catch :a (catch e (throw f 1)) 2)
     (catch :k (when (= x 2) (throw :k e)) x) (tagbody (when b (go out)) (princ x) out)
     (loop while (< x 3) do (incf x) finally (return x))
     (do ((i x (1+ i)) (l '() (cons i l))) ((>= i 3) l)) (prog1 x (setq x 7))

@@ -44,6 +44,20 @@
                  ((:smash :a)))
                (mapcar #'second summaries)))))
 
+(test the-first-instance-is-the-only-one-of-its-path
+  "Both paths begin with a step, of which the first path gives the trace."
+  (is (equal '(((:toggle :a)) ((:smash :a)))
+             (mapcar #'second (summaries-of *toggle-twice* :constraint :any-action
+                                                           :traces :first-instance))))
+  (is (equal '(((:smash :b)))
+             (mapcar #'second (summaries-of "
+(def-top-level-cram-function lamp-plan ()
+  (with-failure-handling ((gripper-goal-not-reached () (return)))
+    (perform (a motion (type smashing) (lamp b)))
+    (perform (a motion (type toggling) (lamp a)))))"
+                                            :constraint :any-action :traces :first-instance)))
+      "a path whose first instance an earlier one had gives none"))
+
 (test every-state-is-a-trace
   "Of the nine states of two lamps a is broken in three; lit by the first toggle it is dark."
   (let* ((text "
@@ -147,6 +161,9 @@
                (third (first (summaries-of text :constraint 'anything
                                                 :arguments '((?one boolean) (?two boolean)
                                                              (?three boolean)))))))
+    (signals-with (symbolic:unsupported-form "got none for ?two")
+      (explore-text text :constraint 'anything
+                         :arguments '((?one boolean) (?three boolean))))
     (is (equal '("1 NONE 0 NONE" "0 NONE 0 NONE")
                (mapcar #'symbolic:trace-output
                        (symbolic:exploration-traces

@@ -45,6 +45,15 @@
       (unless (equal part "paths at")
         (is (search part text) "~s is not in ~a" part text)))))
 
+(test a-property-is-needed
+  (dolist (property '(nil :any-action))
+    (signals-with (symbolic:unsupported-form "a formula, a state constraint")
+      (verify-text *careful-plan* property)))
+  (signals-with (symbolic:unsupported-form "a number of seconds was expected")
+    (verify-text *careful-plan* :no-failure :max-seconds -1))
+  (signals-with (symbolic:unsupported-form "one of each")
+    (verify-text *careful-plan* :no-failure :arguments '((?x real) (?x integer)))))
+
 (test a-violation-of-the-first-state-needs-no-step
   (let ((trace (symbolic:verification-counterexample
                 (verify-text *careful-plan* '(not (holds-at (broken b) ?time))))))

@@ -141,12 +141,12 @@ which it is.  Who calls it in a plan asks CODE-OF for the version that knows sym
 (define-analyzer catch (form scope)
   (let ((tag (analyze (second form) scope)) (inside (analyze-body (cddr form) scope)))
     (declare (type function tag inside))
-    (code (frame) (catch (run tag frame) (run inside frame)))))
+    (code (frame) (catch (settled (run tag frame) "a catch tag") (run inside frame)))))
 
 (define-analyzer throw (form scope)
   (let ((tag (analyze (second form) scope)) (value (analyze (third form) scope)))
     (declare (type function tag value))
-    (code (frame) (throw (run tag frame) (run value frame)))))
+    (code (frame) (throw (settled (run tag frame) "a catch tag") (run value frame)))))
 
 (define-analyzer unwind-protect (form scope)
   (let ((protected (analyze-form (second form) scope))

@@ -23,8 +23,10 @@ that name."
                (every (lambda (argument)
                         (and (alexandria:proper-list-p argument) (= (length argument) 2)
                              (symbolp (first argument))))
-                      arguments))
-    (error 'unsupported-form :form arguments :reason "a list of (parameter type) was expected"))
+                      arguments)
+               (alexandria:setp arguments :key #'first :test #'string=))
+    (error 'unsupported-form :form arguments
+                             :reason "a list of (parameter type) was expected, one of each"))
   (multiple-value-bind (required optional rest keywords)
       (alexandria:parse-ordinary-lambda-list (plan:plan-lambda-list plan))
     (declare (ignore rest))
@@ -35,7 +37,9 @@ that name."
              (given (name) (find name arguments :key #'first :test #'string=))
              (missing (names) (remove-if #'given names)))
       (let* ((optional (mapcar #'first optional))
-             (last (position-if #'given optional :from-end t))
+             (last (if (some #'given (mapcar #'cadar keywords))
+                       (1- (length optional)) ; keywords come after all of these
+                       (position-if #'given optional :from-end t)))
              (needed (append required (subseq optional 0 (if last (1+ last) 0))))
              (known (append required optional (mapcar #'cadar keywords))))
         (when (missing needed)

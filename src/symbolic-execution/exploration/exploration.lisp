@@ -205,6 +205,10 @@ UNSUPPORTED-FORM."
   (check-option :interleavings interleavings "one of nil, t, :all"
                 (member interleavings '(nil t :all)))
   (check-option :on-unknown on-unknown "one of :keep, :signal" (member on-unknown '(:keep :signal)))
+  (check-option :max-seconds max-seconds "a number of seconds"
+                (typep max-seconds '(or null (real 0))))
+  (check-option :solver-timeout solver-timeout "a number of seconds"
+                (typep solver-timeout '(or null (real (0)))))
   (check-bounds :max-paths max-paths :max-steps max-steps :max-jumps max-jumps :seed seed)
   (let* ((plan (plan:find-plan plan))
          (domain (if (typep domain 'action-theory) domain (find-action-theory domain)))

@@ -125,7 +125,8 @@ NIL if there is no path."
         (note-ending exploration path)
         (make-finished-run :path path :arguments arguments :output output
                            :formula (exploration-formula exploration)
-                           :span (exploration-span exploration))))))
+                           :span (exploration-span exploration)
+                           :first-p (null (exploration-found exploration)))))))
 
 (defun call-timed (exploration function)
   "Call FUNCTION; add the time to that of EXPLORATION, and note which questions Z3 left open."

@@ -4,7 +4,7 @@
 ;;;;   :LAST             one trace a path, cut after the last time at which the constraint holds
 ;;;;   :EVERY-INSTANCE   each prefix of a path that ends in an instance; what holds on the path
 ;;;;                     later is not asked for
-;;;;   :FIRST-INSTANCE   only the shortest of them
+;;;;   :FIRST-INSTANCE   only the shortest of them on each path
 ;;;;   :EVERY-STATE      as :LAST, from every initial state, the least first
 ;;;; A path may go on to a failure, or to where the theory allows nothing.  Entry point:
 ;;;; PATH-TRACES.
@@ -13,12 +13,14 @@
 
 (defstruct (finished-run (:conc-name run-) (:copier nil))
   "A run that is over: its PATH, the symbolic ARGUMENTS, what it has printed, and what is looked
-for on it: the ground FORMULA of a state constraint over SPAN steps."
+for on it: the ground FORMULA of a state constraint over SPAN steps.  FIRST-P is true while no
+earlier run had a trace."
   (path nil :type path :read-only t)
   (arguments '() :type list :read-only t)
   (output "" :type string :read-only t)
   (formula nil :read-only t)
   (span 0 :type (integer 0) :read-only t)
+  (first-p nil :type boolean :read-only t)
   (missed nil :type boolean))             ; whether Z3 found no state where there may be one
 
 (defun run-oracle (run) (path-oracle (run-path run)))
@@ -109,16 +111,19 @@ those that an earlier run with the same beginning had."
     traces))
 
 (defun first-trace (run)
-  "Return the list of the shortest of the PREFIX-TRACES of RUN; or NIL."
-  (let ((path (run-path run)) (oracle (run-oracle run)) (first nil))
+  "Return the list of the trace of RUN that ends with its first instance; or NIL, also if an earlier
+run with the same beginning had it."
+  (let ((path (run-path run)) (oracle (run-oracle run)) (first nil) (repeated nil))
     (loop for instance in (instances run)
           for (time . proposition) = instance
           for depth = (depth-at path (+ time (run-span run)))
-          do (when (< depth (path-repeated path)) (return))
+          for repeated-p = (< depth (path-repeated path))
+          do (when (and repeated-p (run-first-p run)) (return)) ; then there was no instance
              (retract-to-depth oracle depth)
              (when (possible-p path proposition)
-               (setf first instance)))
-    (when first
+               (setf first instance
+                     repeated repeated-p)))
+    (when (and first (not repeated))
       (destructuring-bind (time . proposition) first
         (with-oracle-scope (oracle)
           (assert-all oracle (list proposition))
