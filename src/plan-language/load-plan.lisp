@@ -32,17 +32,23 @@
                            def-top-level-cram-function)
   "Operators that define functions.")
 
+(defun mentions-operator-p (form operators)
+  "Return true if a list in FORM begins with one of OPERATORS."
+  (and (consp form)
+       (or (and (member (first form) operators) t)
+           (loop for rest = form then (cdr rest)
+                 while (consp rest)
+                   thereis (mentions-operator-p (car rest) operators)))))
+
 (defun closes-over-p (form)
-  "Return true if FORM, of a plan file, is likely to define functions over something local."
-  (labels ((defines-p (part)
-             (and (consp part)
-                  (or (member (first part) *definers*)
-                      (loop for rest = part then (cdr rest)
-                            while (consp rest)
-                              thereis (defines-p (car rest)))))))
-    (and (consp form)
-         (member (first form) '(let let* flet labels multiple-value-bind destructuring-bind))
-         (defines-p (rest form)))))
+  "Return true if FORM, of a plan file, is likely to make functions with a state of their own:
+definitions inside of bindings, or a variable whose value is or holds a closure."
+  (and (consp form)
+       (case (first form)
+         ((let let* flet labels multiple-value-bind destructuring-bind)
+          (mentions-operator-p (rest form) *definers*))
+         ((defvar defparameter setf setq)
+          (mentions-operator-p (rest form) '(lambda flet labels))))))
 
 (defun evaluate-plan-form (form)
   (if (and *closure-evaluator* (closes-over-p form))

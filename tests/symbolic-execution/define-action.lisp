@@ -294,7 +294,7 @@
       (expand '(:event (go place)) '(:requires))))
   (signals-with (plan:malformed-plan-form "(motion type) or (action type)")
     (macroexpand-1 '(symbolic:define-action (object cup) () (:domain kitchen))))
-  (signals-with (plan:malformed-plan-form "list of variables")
+  (signals-with (plan:malformed-plan-form "a list of variables, the properties, each once")
     (macroexpand-1 '(symbolic:define-action (motion testing) (:place) (:domain kitchen)))))
 
 (test errors-in-bindings-name-file-and-line

@@ -256,3 +256,26 @@ return the numbers of their paths."
         (incf pruned fewer)
         (incf all paths)))
     (is (< pruned all) "~d paths instead of ~d" pruned all)))
+
+(test what-a-fluent-of-the-plan-shows-depends-on-the-order
+  "One branch sets it twice, the other may look at it between."
+  (make-lamp-domain)
+  (flet ((outputs (interleavings)
+           (remove-duplicates
+            (mapcar #'symbolic:trace-output
+                    (symbolic:exploration-traces
+                     (explore-text "
+(def-top-level-cram-function lamp-plan ()
+  (let ((f (make-fluent :value 0)))
+    (par (progn (perform (a motion (type smashing) (lamp a)))
+                (setf (value f) 1)
+                (perform (a motion (type smashing) (lamp a)))
+                (setf (value f) 2))
+         (progn (wait-for (> f 0))
+                (perform (a motion (type smashing) (lamp b)))
+                (princ (value f))))))"
+                                   :constraint 'anything :interleavings interleavings
+                                   :traces :every-state)))
+            :test #'equal)))
+    (is (alexandria:set-equal (outputs :all) (outputs t) :test #'equal))
+    (is (= 2 (length (outputs t))))))

@@ -93,6 +93,15 @@
   (discrepancy-finder.tests::note-down (counted ?flag)))")
   (is (= 1 (funcall 'discrepancy-finder-user::next-count)) "compiled code shares the state"))
 
+(test closures-in-globals-begin-each-path-as-they-were
+  (is-noted ((1 2 :on) (1 2 :off)) "
+(defvar *next* (let ((n 0)) (lambda () (incf n))))
+(defparameter *steps* (list (let ((n 0)) (lambda () (incf n 2)))))
+(def-top-level-cram-function lamp-plan (?flag)
+  (discrepancy-finder.tests::note-down
+    (list (funcall *next*) (funcall (first *steps*)) (if ?flag :on :off))))")
+  (is (= 1 (funcall (symbol-value 'discrepancy-finder-user::*next*)))))
+
 (test closed-over-lists-and-tables-begin-each-path-as-they-were
   (is-noted ((1 (:a) t) (1 (:a) nil)) "
 (let ((table (make-hash-table)) (list '()))

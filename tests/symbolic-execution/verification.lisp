@@ -54,6 +54,32 @@
   (signals-with (symbolic:unsupported-form "one of each")
     (verify-text *careful-plan* :no-failure :arguments '((?x real) (?x integer)))))
 
+(test errors-of-tasks-and-endless-recursion-are-errors-of-the-plan
+  (let ((verification (verify-text "
+(def-top-level-cram-function lamp-plan (?flag)
+  (when ?flag (wait-for (make-fluent))))" :no-error :arguments '((?flag boolean)))))
+    (is (eq :counterexample (symbolic:verification-verdict verification)))
+    (is (typep (symbolic:verification-problem verification) 'plan:deadlock))
+    (is (equal '(t) (symbolic:trace-arguments
+                     (symbolic:verification-counterexample verification)))))
+  (let* ((*error-output* (make-broadcast-stream))
+         (verification (verify-text "
+(def-top-level-cram-function lamp-plan ()
+  (labels ((deeper (n) (1+ (deeper n))))
+    (deeper 0)))" :no-error)))
+    (is (eq :counterexample (symbolic:verification-verdict verification)))
+    (is (typep (symbolic:verification-problem verification) 'symbolic:plan-broke))))
+
+(test a-path-without-a-trace-is-a-gap
+  "The square root of two, of which there is no rational number to show, leads to a failure."
+  (let ((verification (verify-text "
+(def-top-level-cram-function lamp-plan (?x)
+  (when (= (* ?x ?x) 2)
+    (fail \"irrational\")))" :no-failure :arguments '((?x real)))))
+    (is (not (eq :verified (symbolic:verification-verdict verification))))
+    (is (search "found no initial state"
+                (format nil "~{~a~}" (symbolic:verification-bounds verification))))))
+
 (test a-violation-of-the-first-state-needs-no-step
   (let ((trace (symbolic:verification-counterexample
                 (verify-text *careful-plan* '(not (holds-at (broken b) ?time))))))

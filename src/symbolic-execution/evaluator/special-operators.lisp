@@ -40,13 +40,23 @@
 
 ;;; Types.  What is declared is checked where SBCL checks it, at THE.
 
+(defun analyze-the (type value site scope)
+  (let ((code (analyze-form value scope))
+        (checked (checked-type type)))
+    (if (eq checked t)
+        code
+        (checking-code code checked site))))
+
 (define-analyzer the (form scope)
   (destructuring-bind (type value) (rest form)
-    (let ((code (analyze-form value scope))
-          (checked (checked-type type)))
-      (if (eq checked t)
-          code
-          (checking-code code checked (make-site form))))))
+    (analyze-the type value (make-site form) scope)))
+
+;; What setters of typed slots expand into.
+(define-analyzer sb-kernel:the* (form scope)
+  (destructuring-bind ((type &key derive-type-only truly &allow-other-keys) value) (rest form)
+    (if (or derive-type-only truly)
+        (analyze-form value scope)
+        (analyze-the type value (make-site form) scope))))
 
 (defun checked-type (type)
   "Return the type, of the first value, that THE with TYPE checks."
@@ -74,7 +84,7 @@
                                (values-list values))
           (run code frame))))))
 
-(define-analyzer (sb-ext:truly-the sb-kernel:the* sb-c::with-source-form) (form scope)
+(define-analyzer (sb-ext:truly-the sb-c::with-source-form) (form scope)
   (analyze-body (cddr form) scope))
 
 ;;; Functions

@@ -169,15 +169,18 @@ error or an interrupt the path stays pending."
           (exploration-source exploration)
           (and run (traces-of-run exploration run)))))
 
+(defun note-missed (exploration run)
+  "Note it if Z3 found no state for a trace of RUN."
+  (when (and run (run-missed run))
+    (note-gap exploration "a path for which Z3 found no initial state")))
+
 (defun next-trace-of-path (exploration)
   "Return the next trace of the path that was run last, or NIL if there is none."
   (let* ((source (exploration-source exploration))
          (trace (and source (funcall (the function source)))))
     (unless trace
-      (let ((run (shiftf (exploration-run exploration) nil)))
-        (setf (exploration-source exploration) nil)
-        (when (and run (run-missed run))
-          (note-gap exploration "a path for which Z3 found no initial state"))))
+      (setf (exploration-source exploration) nil)
+      (note-missed exploration (shiftf (exploration-run exploration) nil)))
     trace))
 
 (defun new-trace-p (exploration trace)

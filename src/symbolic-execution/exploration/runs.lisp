@@ -9,16 +9,17 @@
   "Call FUNCTION with ARGUMENTS for the plan named PLAN.  An error that the plan does not handle is
 signaled as PLAN-BROKE, where the plan's top-level is left, after the function DOOM was called with
 that condition."
-  (handler-bind ((error (lambda (condition)
-                          (let ((final (if (typep condition
-                                                  '(or symbolic-execution-error z3:z3-error
-                                                    z3:solver-unknown plan:plan-error))
-                                           condition
-                                           (make-condition 'plan-broke :plan plan
-                                                                       :error condition))))
-                            (funcall doom final)
-                            (unless (eq final condition)
-                              (error final))))))
+  (handler-bind (((or error storage-condition)
+                   (lambda (condition)
+                     (let ((final (if (typep condition
+                                             '(or symbolic-execution-error z3:z3-error
+                                               z3:solver-unknown plan:plan-error))
+                                      condition
+                                      (make-condition 'plan-broke :plan plan
+                                                                  :error condition))))
+                       (funcall doom final)
+                       (unless (eq final condition)
+                         (error final))))))
     (if (plan:plan-top-level-p (plan:find-plan plan))
         (apply function arguments)
         (plan:ensure-top-level (lambda () (apply function arguments)) plan))))
@@ -26,7 +27,7 @@ that condition."
 (defun kept-error-p (path)
   "Return true if the run of PATH is over by an error of the plan that is an ending like others."
   (and (path-keep-errors path)
-       (typep (path-fatal path) 'plan-broke)))
+       (typep (path-fatal path) '(or plan-broke plan:plan-error))))
 
 (defun run-plan-on (path function arguments)
   "Call FUNCTION, the interpreted plan, with ARGUMENTS on PATH, note how the run ends and return

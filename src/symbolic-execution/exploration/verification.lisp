@@ -106,7 +106,8 @@ none."
                                     (lambda ()
                                       (let ((run (run-next-path exploration)))
                                         (and run (funcall wanted-p (run-path run))
-                                             (first (whole-trace run))))))))
+                                             (prog1 (first (whole-trace run))
+                                               (note-missed exploration run))))))))
              (when trace (return trace)))))
 
 (defun trace-of-error (exploration)

@@ -9,7 +9,9 @@ TEST: for Lisp objects that are not symbolic the function TEST tells."
     (cond ((not (or (symbolic-value-p one) (symbolic-value-p other)))
            (and (funcall (the function test) one other) t))
           ((or (symbolic-number-p one) (symbolic-number-p other))
-           (number-equal-proposition one other))
+           (if (eq test #'equalp)
+               (number-equal-proposition (exactly one) (exactly other))
+               (number-equal-proposition one other)))
           (t (z3:disjunction
               (loop for (object . proposition) in (choices-of one)
                     append (loop for (other-object . other-proposition) in (choices-of other)
@@ -34,6 +36,12 @@ number.  Symbolic numbers are rational."
                                    (list one-proposition other-proposition
                                          (multiple-value-call #'equal-terms
                                            (same-sort left right)))))))))
+
+(defun exactly (value)
+  "Return VALUE; a float as the rational number that it is, for EQUALP compares by =."
+  (cond ((not (floatp value)) value)
+        ((or (sb-ext:float-infinity-p value) (sb-ext:float-nan-p value)) nil)
+        (t (rational value))))
 
 (defun number-choices (value)
   (if (symbolic-number-p value) (list (cons value t)) (choices-of value)))

@@ -52,10 +52,14 @@
         (t (multiple-value-call inclusive (same-sort (rational bound) term)))))
 
 (defun lifted-typep (value type)
-  "Return whether VALUE is of TYPE, which may be symbolic."
-  (if (symbolic-value-p value)
-      (type-answer value (lambda (object) (typep object type)) type "an argument of typep")
-      (typep value type)))
+  "Return whether VALUE, which may be symbolic, is of TYPE."
+  (flet ((is-p (object) (typep object type)))
+    (cond ((symbolic-value-p value)
+           (type-answer value #'is-p type "an argument of typep"))
+          ;; Whether it is may depend on what is inside: (cons (eql 1)), (satisfies p).
+          ((and (symbolic-run-p) (compound-p value) (consp (sb-ext:typexpand type)))
+           (is-p (decided value "an argument of typep")))
+          (t (is-p value)))))
 
 (define-lifted typep (value type &optional environment)
   (declare (ignore environment))
