@@ -247,3 +247,12 @@
       (signals-with (symbolic:invalid-trace "no symbol NO-SUCH")
         (changed "\"LAMP-PLAN\"" "\"NO-SUCH\""))
       (is (null (find-symbol "NO-SUCH" '#:discrepancy-finder-user))))))
+
+(test designators-of-steps-show-what-was-decided
+  (is (equal '(("(a motion (type smashing) (lamp a))") ("(a motion (type smashing) (lamp b))"))
+             (loop for trace in (symbolic:exploration-traces
+                                 (explore-text "
+(def-top-level-cram-function lamp-plan (?lamp)
+  (perform (a motion (type smashing) (lamp ?lamp))))"
+                                               :constraint 'anything :arguments '((?lamp lamp))))
+                   collect (mapcar #'symbolic:step-designator (symbolic:trace-steps trace))))))

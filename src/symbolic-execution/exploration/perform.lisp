@@ -121,7 +121,12 @@ the state after it, and the text of DESIGNATOR."
   "Decide for an outcome of DESIGNATOR, which PLAN performs at POSITION, on PATH, add the step and
 return the outcome."
   (multiple-value-bind (outcome next description) (decide-step path designator position plan)
-    (push (make-trace-step :designator description :event (outcome-event outcome)
+    (push (make-trace-step :designator (if (search "#<symbolic" description)
+                                           ;; What the event needs is decided by now.
+                                           (let ((*print-case* :downcase))
+                                             (princ-to-string designator))
+                                           description)
+                           :event (outcome-event outcome)
                            :outcome (outcome-name outcome) :position position)
           (path-steps path))
     (when *recorder*

@@ -48,7 +48,9 @@ true; no two objects are EQL."
       "Return the choices of a symbolic element: a list of (object . proposition).")
 
 (defmethod print-object ((value symbolic-value) stream)
-  (format stream "#<symbolic ~a>" (symbolic-text value)))
+  (if (known-p value)
+      (print-object (symbolic-value-known value) stream)
+      (format stream "#<symbolic ~a>" (symbolic-text value))))
 
 (defun symbolic-text (value)
   "Return what the symbolic VALUE is, as a text."
