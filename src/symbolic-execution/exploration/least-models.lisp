@@ -62,16 +62,22 @@ are asserted.  Throws to ASSIGNMENT if Z3 finds no model."
                      (push (if value proposition negation) pending)))))
       (assert-all oracle pending))))
 
+(defun answer-to (oracle proposition)
+  "Return whether PROPOSITION is allowed: :SAT, :UNSAT or :UNKNOWN."
+  (if proposition
+      (ask oracle (if (eq proposition t) '() (list proposition)))
+      :unsat))
+
 (defun allowed-p (oracle proposition)
-  (and proposition
-       (eq (ask oracle (if (eq proposition t) '() (list proposition))) :sat)))
+  (eq (answer-to oracle proposition) :sat))
 
 (defun least-bound (oracle between)
   "Return the least positive integer N for which (BETWEEN N), a proposition that grows weaker with
-N, is allowed, or NIL if none up to 2^64 is."
+N, is allowed, or NIL if none up to 2^64 is, or Z3 cannot tell."
   (let ((high (loop for power from 0 to 64
-                    when (allowed-p oracle (funcall between (expt 2 power)))
-                      return (expt 2 power))))
+                    do (case (answer-to oracle (funcall between (expt 2 power)))
+                         (:sat (return (expt 2 power)))
+                         (:unknown (return nil))))))
     (when high
       (let ((low (floor high 2)))       ; not allowed, or 0
         (loop while (> (- high low) 1)

@@ -47,6 +47,12 @@ true; no two objects are EQL."
       (documentation 'symbolic-element-choices 'function)
       "Return the choices of a symbolic element: a list of (object . proposition).")
 
+(declaim (inline known-p))
+(defun known-p (value)
+  "Return true if the symbolic VALUE was decided on the path of the run."
+  (let ((path (symbolic-value-path value)))
+    (and path (eq path *path*))))
+
 (defmethod print-object ((value symbolic-value) stream)
   (if (known-p value)
       (print-object (symbolic-value-known value) stream)
@@ -110,12 +116,6 @@ is true; or the only object.  A choice between T and NIL is a symbolic boolean."
           ((and (null (cddr choices)) (assoc t choices) (assoc nil choices))
            (symbolic-boolean (cdr (assoc t choices))))
           (t (meet-symbolic (make-symbolic-element choices))))))
-
-(declaim (inline known-p))
-(defun known-p (value)
-  "Return true if the symbolic VALUE was decided on the path of the run."
-  (let ((path (symbolic-value-path value)))
-    (and path (eq path *path*))))
 
 (declaim (inline current))
 (defun current (value)
