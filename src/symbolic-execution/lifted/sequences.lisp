@@ -283,7 +283,7 @@ else."
   (constantly value))
 
 (define-lifted (complement) (function)
-  (let ((code (code-of function)))
+  (let ((code (code-of (the function (settled function "a function")))))
     (make-interpreted-function
      (lambda (&rest arguments)
        (funcall (the function (lifted-function 'not)) (apply (the function code) arguments))))))
