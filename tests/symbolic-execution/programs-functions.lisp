@@ -175,4 +175,11 @@
   (progn (defun documented-1 () "What it does." 1) (documentation #'documented-1 t))
   (progn (defun documented-2 () "Old." 1) (defun documented-2 () 2)
     (documentation 'documented-2 'function))
-  (complement 'car) (complement 1) (funcall (complement #'null) 1))
+  (complement 'car) (complement 1) (funcall (complement #'null) 1)
+  ;; symbols as functions
+  (every 'null nil) (every 'null '(nil 1)) (some 'oddp '(2 3))
+  (assoc "A" '(("a" . 1)) :test 'equalp)
+  (subst-if 'x 'numberp '(1 a)) (set-difference '("a") '("a") :test 'equal)
+  (subsetp '(1) '(1) :test 'eql) (remove-if 'null '(1 nil)) (sort (list 3 1 2) '<)
+  (handler-case (funcall 'adjoin 1) (program-error () :too-few))
+  (handler-case (funcall 'union '(1) '(2) :test) (program-error () :odd)))

@@ -130,7 +130,8 @@ else."
            (rest-role (second (member '&rest roles)))
            (default-test (and (member '&eql roles) t)))
       `(define-lifted ,(list name) (&rest arguments)
-         (if *path*
+         (if (and *path* (<= ,(length positional) (length arguments))
+                  ,(or (and rest-role t) `(evenp (- (length arguments) ,(length positional)))))
              (prepared-call #',name arguments ',positional ',rest-role ,default-test
                             ,(describe-decision name))
              (apply #',name arguments))))))
