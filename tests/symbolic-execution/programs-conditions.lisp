@@ -176,4 +176,5 @@
     (:report (lambda (c s) (format s "~a and ~a" (own-x c) (own-y c))))) (handler-case (error
     'own-2 :x 1) (own-condition (c) (push 0 (own-y c)) (princ-to-string c))))
   (let ((k 5)) (define-condition own-3 (error) ((x :initform k :reader own-3-x))) (own-3-x
-    (make-condition 'own-3))))
+    (make-condition 'own-3)))
+  (let ((x 1)) (handler-bind ((error)) x)))

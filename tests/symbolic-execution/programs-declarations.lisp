@@ -140,4 +140,5 @@
   (let ((x 0)) (loop (if (> (incf x) 3) (return (values x :end)) (princ x))))
   (loop with i = 0 do (incf i) (when (= i 3) (return (list i))) (princ i))
   (block outer (loop (loop (return)) (return-from outer :out)))
-  (loop for i from 0 do (case i (0 (princ :zero)) (1 nil) (t (return i)))))
+  (loop for i from 0 do (case i (0 (princ :zero)) (1 nil) (t (return i))))
+  (let ((x 1) (x 2)) x) (let* ((x 1) (x (1+ x))) x))

@@ -165,4 +165,11 @@
          (list (mug-size (mug 5)) (mug-handle (mug 5)) (cup-1-p (mug 1))))
   (cup-1-size 5) (make-cup-1 :content 5)
   (progn (defstruct (pair-1 (:type list)) a b) (make-pair-1 :a 1 :b 2))
-  (let ((n 10)) (defstruct lexical-1 (id (incf n))) (list (lexical-1-id (make-lexical-1)) n)))
+  (let ((n 10)) (defstruct lexical-1 (id (incf n))) (list (lexical-1-id (make-lexical-1)) n))
+  ;; documentation
+  (progn (defmacro documented-macro () "What it does." 1)
+    (documentation 'documented-macro 'function))
+  (progn (define-modify-macro documented-modify-macro () 1+ "What it does.")
+    (documentation 'documented-modify-macro 'function))
+  (progn (define-setf-expander documented-place () "What it is." (values nil nil nil nil nil))
+    (documentation 'documented-place 'setf)))

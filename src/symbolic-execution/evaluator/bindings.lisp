@@ -97,6 +97,8 @@ variables declared special by the form."
                        collect (values (binding-parts binding form))))
           (values (loop for binding in (second form)
                         collect (analyze (nth-value 1 (binding-parts binding form)) scope))))
+      (unless (= (length names) (length (remove-duplicates names)))
+        (unsupported form "it binds a variable twice"))
       (cond ((null names) (analyze-body forms (scope-with-specials scope specials)))
             ((some (lambda (name) (special-p name specials)) names)
              (analyze-special-let names values forms specials scope))

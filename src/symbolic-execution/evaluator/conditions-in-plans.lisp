@@ -4,6 +4,8 @@
 
 (define-analyzer (handler-bind sb-kernel::%handler-bind) (form scope)
   (destructuring-bind (bindings . body) (rest form)
+    (unless (every (lambda (binding) (typep binding '(cons t (cons t null)))) bindings)
+      (unsupported form "a binding of a handler is (type function)"))
     (let ((types (mapcar #'first bindings))
           (handlers (loop for (nil handler) in bindings collect (analyze handler scope)))
           (inside (analyze `(progn ,@body) scope)))

@@ -33,10 +33,13 @@
     (unless (symbolp name) (unsupported form "the name of a macro is a symbol"))
     (let ((expander (analyze (sb-cltl2:parse-macro name lambda-list body
                                                    (scope-environment scope))
-                             scope)))
+                             scope))
+          (documentation (nth-value 2 (alexandria:parse-body body :documentation t))))
       (declare (type function expander))
       (code (frame)
         (setf (macro-function name) (run expander frame))
+        (when documentation
+          (setf (documentation name 'function) documentation))
         name))))
 
 ;;; The functions of structures are compiled, unless default values are of a lexical scope

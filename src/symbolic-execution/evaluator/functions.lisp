@@ -7,8 +7,10 @@
 (in-package #:discrepancy-finder.symbolic-execution)
 
 (defun analyze-lambda (name lambda-list body scope)
-  "Return the code that makes the interpreted function with LAMBDA-LIST and BODY."
-  (multiple-value-bind (forms declarations) (alexandria:parse-body body :documentation t)
+  "Return the code that makes the interpreted function with LAMBDA-LIST and BODY.  It prints as
+NAME, unless that is NIL."
+  (multiple-value-bind (forms declarations documentation)
+      (alexandria:parse-body body :documentation t)
     (let ((specials (declared-specials declarations))
           (*exits* '()) (*tails* '()) (*jumps* 0))
       (multiple-value-bind (required optional rest keys allow-other-keys aux keyp)
@@ -17,14 +19,23 @@
               (error 'sb-int:simple-program-error
                      :format-control "Malformed lambda list ~s: ~a"
                      :format-arguments (list lambda-list condition))))
-        (if (or optional rest keyp aux
-                (notevery #'symbolp required)
-                (some (lambda (name) (special-p name specials)) required)
-                (/= (length required) (length (remove-duplicates required))))
-            (analyze-general-lambda name forms specials scope
-                                    (make-parameters required optional rest keys
-                                                     allow-other-keys keyp aux))
-            (analyze-simple-lambda required forms specials scope))))))
+        (naming-code
+         (if (or optional rest keyp aux
+                 (notevery #'symbolp required)
+                 (some (lambda (name) (special-p name specials)) required)
+                 (/= (length required) (length (remove-duplicates required))))
+             (analyze-general-lambda forms specials scope
+                                     (make-parameters required optional rest keys
+                                                      allow-other-keys keyp aux))
+             (analyze-simple-lambda required forms specials scope))
+         name documentation)))))
+
+(defun naming-code (maker name documentation)
+  "Return the code MAKER, which makes a function, such that this gets NAME and DOCUMENTATION."
+  (declare (type function maker))
+  (if (or name documentation)
+      (code (frame) (named-function (run maker frame) name documentation))
+      maker))
 
 (defun function-code (scope context maker run)
   "Return the code that makes a function: MAKER makes it of a frame and RUN, the code of its body,
@@ -122,8 +133,7 @@ their values there."
   "The parts of an ordinary lambda list, as ALEXANDRIA:PARSE-ORDINARY-LAMBDA-LIST returns them."
   required optional rest keys allow-other-keys keyp aux)
 
-(defun analyze-general-lambda (name forms specials scope parameters)
-  (declare (ignore name))
+(defun analyze-general-lambda (forms specials scope parameters)
   (let* ((layout (make-layout :size 3))
          (context (make-context :layout layout))
          (inner (extend-scope scope :layout layout :context context))

@@ -130,7 +130,8 @@ else."
            (rest-role (second (member '&rest roles)))
            (default-test (and (member '&eql roles) t)))
       `(define-lifted ,(list name) (&rest arguments)
-         (if *path*
+         (if (and *path* (<= ,(length positional) (length arguments))
+                  ,(or (and rest-role t) `(evenp (- (length arguments) ,(length positional)))))
              (prepared-call #',name arguments ',positional ',rest-role ,default-test
                             ,(describe-decision name))
              (apply #',name arguments))))))
@@ -283,7 +284,7 @@ else."
   (constantly value))
 
 (define-lifted (complement) (function)
-  (let ((code (code-of function)))
+  (let ((code (code-of (the function (settled function "a function")))))
     (make-interpreted-function
      (lambda (&rest arguments)
        (funcall (the function (lifted-function 'not)) (apply (the function code) arguments))))))

@@ -173,6 +173,6 @@ symbolic values."
     (t function)))
 
 (defun function-description (function)
-  "Return how FUNCTION is called in the description of a decision."
-  (let ((name (sb-kernel:%fun-name function)))
+  "Return how FUNCTION, an object or a name, is called in the description of a decision."
+  (let ((name (if (functionp function) (sb-kernel:%fun-name function) function)))
     (format nil "an argument of ~(~a~)" (if (or (symbolp name) (consp name)) name "a function"))))

@@ -30,6 +30,14 @@
   (values-list (loop for value in values
                      collect (decided value "what a function returns to compiled code"))))
 
+(defun named-function (function name documentation)
+  "Return FUNCTION, an interpreted one just made, which prints as NAME and has DOCUMENTATION, unless
+these are NIL."
+  (let ((function (if name (sb-impl::set-closure-name function t name) function)))
+    (when documentation
+      (setf (documentation function t) documentation))
+    function))
+
 (defun make-interpreted-function (code)
   "Return an interpreted function with CODE."
   (declare (type function code))
