@@ -123,7 +123,7 @@ return the outcome."
   (multiple-value-bind (outcome next description) (decide-step path designator position plan)
     (push (make-trace-step :designator (if (search "#<symbolic" description)
                                            ;; What the event needs is decided by now.
-                                           (let ((*print-case* :downcase))
+                                           (let ((*show-decided* t) (*print-case* :downcase))
                                              (princ-to-string designator))
                                            description)
                            :event (outcome-event outcome)

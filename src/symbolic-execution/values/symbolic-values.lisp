@@ -53,8 +53,12 @@ true; no two objects are EQL."
   (let ((path (symbolic-value-path value)))
     (and path (eq path *path*))))
 
+(defvar *show-decided* nil
+  "True if symbolic values that were decided are printed as what they are.  The texts of decisions
+must not depend on that: a replay may know it earlier or later.")
+
 (defmethod print-object ((value symbolic-value) stream)
-  (if (known-p value)
+  (if (and *show-decided* (known-p value))
       (print-object (symbolic-value-known value) stream)
       (format stream "#<symbolic ~a>" (symbolic-text value))))
 
