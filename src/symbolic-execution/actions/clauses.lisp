@@ -54,7 +54,8 @@ are what they should be."
                (notany #'keywordp properties) (notany #'constantp properties)
                (alexandria:setp properties)
                (null (intersection properties lambda-list-keywords)))
-    (clause-problem form nil "a list of variables, the properties, each once, after (~(~a ~a~))" class type))
+    (clause-problem form nil "a list of variables, the properties, each once, after (~(~a ~a~))"
+                    class type))
   (dolist (clause clauses) (check-clause form clause))
   (dolist (key '(:domain :event))
     (unless (= 1 (count key clauses :key #'first))

@@ -82,7 +82,8 @@ allows), or :VERIFIED-UP-TO-BOUNDS, see VERIFICATION-BOUNDS."
 (defun violation (property domain)
   "Return what an exploration of DOMAIN looks for when PROPERTY is to be verified: a state
 constraint, or PROPERTY itself."
-  (check-option :property property "a formula, a state constraint, (:never x), :no-failure or :no-error"
+  (check-option :property property
+                "a formula, a state constraint, (:never x), :no-failure or :no-error"
                 (and property (not (any-action-p property))))
   (cond ((member property '(:no-failure :no-error)) property)
         ((and (consp property) (eq (first property) :never))
