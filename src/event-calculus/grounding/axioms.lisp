@@ -232,6 +232,13 @@ conditions among them."
                            (equal (rest conclusion)
                                   (list (second second) (second first)))))))))))
 
+(defun speaks-of-later-p (form)
+  "Return true if FORM, the condition of an effect, may speak of a time after that of the effect: of
+an event, which ends one later, or of a time that is computed."
+  (and (consp form)
+       (or (member (first form) '(:happens :+ :-))
+           (some #'speaks-of-later-p (rest form)))))
+
 (defun ground (theory)
   "Return the GROUND-THEORY of THEORY."
   (let* ((ground (make-empty-ground-theory theory))
@@ -242,11 +249,13 @@ conditions among them."
                             append (loop for clause in (axiom-clauses axiom theory)
                                          collect (cons axiom clause))))
          (clauses (remove-if (lambda (clause) (one-event-clause-p theory clause)) all-clauses))
+         ;; Sentences on effects that look ahead say less at the end of a horizon.
          (absolute-effects
-           (notevery (lambda (clause)
-                       (or (not (eq (second clause) :effect))
-                           (clause-relative-p theory clause nil)))
-                     clauses))
+           (find-if (lambda (clause)
+                      (and (eq (second clause) :effect)
+                           (or (not (clause-relative-p theory clause nil))
+                               (speaks-of-later-p (third clause)))))
+                    clauses))
          (absolute (remove-if (lambda (clause)
                                 (clause-relative-p theory clause absolute-effects))
                               clauses)))
