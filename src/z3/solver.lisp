@@ -86,12 +86,12 @@ for it, one reference of which it owns, and its index in the record."
 (defun make-solver (context &key (logic "QF_FD") timeout seed options)
   "Return a new SOLVER in CONTEXT.  LOGIC is the name of an SMT-LIB logic, which picks Z3's engine,
 or NIL for Z3's default engine; QF_FD, propositions and finite domains, is the one measured best for
-propositions, and cannot tell where numbers occur.  A check ends after TIMEOUT seconds of wall-clock
-time (a positive real, or NIL for no limit).  The search starts from SEED, a natural number, or from
-Z3's own if it is NIL; the same calls in a new context with the same seed give the same answers and
-models.  OPTIONS is an alist from names of options of Z3's engine to natural numbers, double floats,
-T, NIL, or words as strings.  Signals Z3-ERROR, e.g. for an unknown LOGIC; an unknown option is
-found out by the first assertion or check."
+propositions, and cannot tell where numbers occur.  A check ends TIMEOUT seconds of wall-clock time
+after its begin (a positive real, or NIL for no limit), or a fiftieth of a second later.  The search
+starts from SEED, a natural number, or from Z3's own if it is NIL; the same calls in a new context
+with the same seed give the same answers and models.  OPTIONS is an alist from names of options of
+Z3's engine to natural numbers, double floats, T, NIL, or words as strings.  Signals Z3-ERROR, e.g.
+for an unknown LOGIC; an unknown option is found out by the first assertion or check."
   (check-type logic (or null string))
   (check-type timeout (or null (real (0))))
   (check-type seed (or null (unsigned-byte 32)))

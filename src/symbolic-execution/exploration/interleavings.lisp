@@ -140,10 +140,6 @@ a PERFORM has no code of its own."
   (let ((schedule (path-schedule path)))
     (and schedule (first (schedule-turns schedule)))))
 
-(defun looks-noted-p ()
-  "Return true if a run is in progress whose looks at fluents matter."
-  (and *path* (path-schedule *path*) t))
-
 (defun note-looks (looks)
   "Note that the current turn, if there is one, looks at the set of fluents LOOKS."
   (let ((turn (and *path* (current-turn *path*))))

@@ -48,10 +48,6 @@ KEEP-ERRORS an error of the plan is an ending like others."
   "Return the solver that holds what is true on PATH."
   (oracle-solver (path-oracle path)))
 
-(defun path-context (path)
-  "Return the Z3 context in which the terms on PATH live."
-  (oracle-context (path-oracle path)))
-
 (defun abandon (path ending)
   "Leave the run of PATH; ENDING, a keyword, says why."
   (setf (path-ending path) ending)
