@@ -267,9 +267,21 @@ The environment variable CXX names another compiler than g++."))
                "xmls")
   :pathname "src/projection/"
   :serial t
-  :components ((:file "package") (:file "conditions") (:file "urdf") (:file "scene")
-               (:file "robot") (:file "projection") (:file "motion") (:file "navigation")
-               (:file "head") (:file "surface") (:file "perception") (:file "manipulation")))
+  :components ((:file "package") (:file "conditions")
+               (:module "models" :serial t
+                :components ((:file "urdf")))
+               (:module "scenes" :serial t
+                :components ((:file "scene")))
+               (:module "worlds" :serial t
+                :components ((:file "robot") (:file "projection")))
+               (:module "motions" :serial t
+                :components ((:file "profiles") (:file "head")))
+               (:module "navigation" :serial t
+                :components ((:file "going")))
+               (:module "perception" :serial t
+                :components ((:file "surface") (:file "detecting")))
+               (:module "manipulation" :serial t
+                :components ((:file "column-arm")))))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
@@ -346,9 +358,11 @@ The environment variable CXX names another compiler than g++."))
                              (:file "random-plans") (:file "searching") (:file "traces")
                              (:file "verification") (:file "coverage") (:file "cpl-operators")
                              (:file "plan-files") (:file "programs-on-a-path")))
-               (:file "bullet") (:file "bullet-queries") (:file "bullet-worlds")
-               (:file "bullet-rays")
-               (:file "projection") (:file "head") (:file "perception")
+               (:module "bullet" :serial t
+                :components ((:file "bullet") (:file "queries") (:file "worlds")
+                             (:file "rays")))
+               (:module "projection" :serial t
+                :components ((:file "two-regions") (:file "head") (:file "perception")))
                (:module "discrepancy"
                 :serial t
                 :components ((:file "random") (:file "quantile") (:file "least-squares")

@@ -24,5 +24,9 @@ order give equal bits, in any thread or process, and queries change no later bit
    #:make-state-vector #:read-state #:state-hash #:at-rest-p
    ;; queries
    #:penetration #:deepest-penetration
+   ;; joints
+   ;; contacts and sweeps
+   ;; checkpoints
+   ;; mechanisms
    ;; rays
    #:cast-ray #:cast-rays))

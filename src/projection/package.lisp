@@ -17,6 +17,8 @@
    #:projection #:make-projection #:close-projection #:with-projection #:projection-world
    #:projection-scene #:observed-pose #:held-item #:settle #:interpenetration #:state-hash
    #:simulated-seconds #:visible-part
+   ;; pictures
+   ;; manipulation
    ;; process modules
    #:execute-designator #:executes-p #:drive-base #:move-arm #:move-head
    ;; conditions
