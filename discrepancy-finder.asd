@@ -372,6 +372,9 @@ The environment variable CXX names another compiler than g++."))
                              (:file "rays")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")))
+               (:module "models"
+                :serial t
+                :components ((:file "kitchen-theory")))
                (:module "statistics"
                 :serial t
                 :components ((:file "normal") (:file "distributions") (:file "least-squares")
