@@ -1,11 +1,11 @@
 ;;;; How often does a confidence rule certify a trace that is discrepant?
 ;;;;
-;;;; A replicate is a made-up simulation: n initial parameters, uniform in a box, n final ones, a map
-;;;; of them with normal noise of 5 cm.  The true probability p of a discrepancy is known: either a
-;;;; box of volume p, somewhere, from which the first final parameter jumps out of its bounds, or the
-;;;; tail of the noise at the bounds.  Samples are drawn until one is a discrepancy or the rule is
-;;;; satisfied, which is a miss.  Where p is above delta, rules with a guarantee may miss it no more
-;;;; often than 1 - confidence.
+;;;; A replicate is a made-up simulation: n initial parameters, uniform in a box, n final ones, a
+;;;; map of them with normal noise of 5 cm.  The true probability p of a discrepancy is known:
+;;;; either a box of volume p, somewhere, from which the first final parameter jumps out of its
+;;;; bounds, or the tail of the noise at the bounds.  Samples are drawn until one is a discrepancy
+;;;; or the rule is satisfied, which is a miss.  Where p is above delta, rules with a guarantee may
+;;;; miss it no more often than 1 - confidence.
 
 (in-package #:discrepancy-finder.bench)
 
@@ -57,7 +57,8 @@ mixes them, :GOAL drives to a fixed place wherever it began."
          (bounds (initial-bounds n))
          (exact (final-bounds kind n 0d0))
          (excesses (loop repeat 20000
-                         collect (loop for value across (noisy-values kind (draw bounds state) state)
+                         collect (loop with values = (noisy-values kind (draw bounds state) state)
+                                       for value across values
                                        for (low . high) across exact
                                        maximize (max (- low value) (- value high))))))
     (nth (floor (* p 20000)) (sort excesses #'>))))
@@ -114,8 +115,8 @@ mixes them, :GOAL drives to a fixed place wherever it began."
 
 (defun print-calibration (stream &key (replicates 400))
   "Print to STREAM how often each rule misses a discrepancy, and after how many samples."
-  (format stream "misses in % (mean number of samples) of confidence rules, first trace, delta 5 %, ~
-                  ~d replicates~%~28t~{~16@a~}~%"
+  (format stream "misses in % (mean number of samples) of confidence rules, first trace, delta ~
+                  5 %, ~d replicates~%~28t~{~16@a~}~%"
           replicates (mapcar #'string-downcase *calibration-rules*))
   (loop for (kind jump-p n p) in '((:linear t 2 0.05d0) (:linear t 2 0.1d0) (:linear t 2 0.2d0)
                                    (:linear t 6 0.1d0) (:goal t 2 0.1d0)
