@@ -24,8 +24,9 @@ search, replay.")
    #:least-squares #:fit #:fit-coefficients #:fit-residual-sum #:fit-rank #:fit-columns
    ;; samples
    #:parameter #:parameter-name #:parameter-min #:parameter-max
+   #:parameter-body #:parameter-axis #:tolerance-p
    #:initial-parameters #:final-parameters #:draw-sample
-   #:sample #:sample-index #:sample-values #:sample-text
+   #:sample #:sample-index #:sample-values #:sample-text #:sample-tolerances
    ;; confidence
    #:confidence-rule #:confidence-rule-confidence #:confidence-verdict
    #:make-confidence-rule #:register-confidence-rule #:paper-rule #:paper-interval
@@ -36,7 +37,7 @@ search, replay.")
    #:verdict-coefficients #:verdict-sigma #:verdict-z
    ;; runs and their judgement
    #:execute-sample #:run-plan #:run #:run-steps #:run-initial-state #:run-final-state #:run-hash
-   #:run-seconds #:run-validity #:run-final-values #:run-ending
+   #:run-seconds #:run-validity #:run-tolerances #:run-final-values #:run-ending
    #:run-step #:run-step-designator #:run-step-outcome #:run-step-state
    #:run-step-failure #:run-text
    #:judge-run #:judgement #:judgement-verdict #:judgement-divergence
