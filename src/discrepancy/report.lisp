@@ -8,11 +8,6 @@
 (defun state-text (atoms)
   (format nil "~:[nothing~;~:*~{~a~^ ~}~]" (mapcar #'ec:atom-text atoms)))
 
-(defun number-text (number)
-  "Return the shortest decimal text of the real NUMBER."
-  (let ((*read-default-float-format* 'double-float))
-    (princ-to-string (if (integerp number) number (decimal-double number)))))
-
 (defun parameters-text (parameters)
   "Return a text for the property list PARAMETERS of scene parameters, or NIL."
   (and parameters
