@@ -106,7 +106,7 @@ The environment variable CXX names another compiler than g++."))
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
                (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")
-               (:file "rays")))
+               (:file "rays") (:file "mechanisms") (:file "inverse-kinematics")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -271,11 +271,13 @@ The environment variable CXX names another compiler than g++."))
                (:module "models" :serial t
                 :components ((:file "urdf")))
                (:module "scenes" :serial t
-                :components ((:file "scene")))
+                :components ((:file "clauses") (:file "parameters") (:file "scene")
+                             (:file "materials") (:file "robots") (:file "reading")))
                (:module "worlds" :serial t
-                :components ((:file "robot") (:file "projection")))
+                :components ((:file "robot") (:file "projection") (:file "building")
+                             (:file "observations") (:file "performing")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "head")))
+                :components ((:file "profiles") (:file "runner") (:file "head")))
                (:module "navigation" :serial t
                 :components ((:file "going")))
                (:module "perception" :serial t
@@ -369,7 +371,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
-                             (:file "rays")))
+                             (:file "rays") (:file "mechanisms")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")))
                (:module "models"

@@ -21,11 +21,12 @@ search, replay.")
    #:philox #:content-hash #:unit-float
    ;; samples
    #:parameter #:parameter-name #:parameter-min #:parameter-max
+   #:parameter-body #:parameter-axis #:tolerance-p
    #:initial-parameters #:final-parameters #:draw-sample
-   #:sample #:sample-index #:sample-values #:sample-text
+   #:sample #:sample-index #:sample-values #:sample-text #:sample-tolerances
    ;; runs and their judgement
    #:execute-sample #:run-plan #:run #:run-steps #:run-initial-state #:run-final-state #:run-hash
-   #:run-seconds #:run-validity #:run-final-values #:run-ending
+   #:run-seconds #:run-validity #:run-tolerances #:run-final-values #:run-ending
    #:run-step #:run-step-designator #:run-step-outcome #:run-step-state
    #:run-step-failure #:run-text
    #:judge-run #:judgement #:judgement-verdict #:judgement-divergence
