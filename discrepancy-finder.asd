@@ -302,7 +302,9 @@ The environment variable CXX names another compiler than g++."))
   :pathname "src/discrepancy/"
   :serial t
   :components ((:file "package") (:file "conditions")
-               (:file "random") (:file "abstraction") (:file "define-abstraction")
+               (:file "random") (:file "regions") (:file "observers")
+               (:file "abstraction") (:file "parsing") (:file "parsing-observers")
+               (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "replay")
                (:file "replay-file")))
@@ -383,7 +385,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "paper-rule") (:file "guaranteed-rules")))
                (:module "discrepancy"
                 :serial t
-                :components ((:file "random") (:file "abstraction") (:file "search")
+                :components ((:file "random") (:file "abstraction") (:file "regions")
+                             (:file "search")
                              (:file "replay")
                              (:file "table-top")))
                (:file "interface") (:file "theory-commands") (:file "readme")

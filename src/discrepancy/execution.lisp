@@ -242,6 +242,7 @@ the same bits, provided that the plan does not read global variables that it wri
   (with-open-projection (projection (projection:make-projection
                                      (domain-scene domain)
                                      :poses (sample-poses domain sample)
+                                     :joints (sample-joints sample)
                                      :parameters (sample-tolerances sample)))
     ;; What is built into something else is invalid, however it comes apart.
     (let* ((built (sample-validity projection nil '()))
