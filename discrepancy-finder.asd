@@ -302,7 +302,7 @@ The environment variable CXX names another compiler than g++."))
   :pathname "src/discrepancy/"
   :serial t
   :components ((:file "package") (:file "conditions")
-               (:file "random") (:file "regions") (:file "observers")
+               (:file "random") (:file "samplers") (:file "regions") (:file "observers")
                (:file "abstraction") (:file "parsing") (:file "parsing-observers")
                (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
@@ -385,8 +385,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "paper-rule") (:file "guaranteed-rules")))
                (:module "discrepancy"
                 :serial t
-                :components ((:file "random") (:file "abstraction") (:file "regions")
-                             (:file "search")
+                :components ((:file "random") (:file "samplers") (:file "abstraction")
+                             (:file "regions") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
                (:file "interface") (:file "theory-commands") (:file "readme")

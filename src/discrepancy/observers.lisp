@@ -17,8 +17,9 @@ min and max the region bounds the axis.  REGIONS are the candidates."
   (regions '() :type list :read-only t))
 
 (defstruct (joint-range (:copier nil))
-  "The ground fluent ATOM holds if the position of the joint named JOINT is in [MIN, MAX].  OTHERWISE
-is the range (min max) from which the position is drawn where no fluent of the joint holds, or NIL."
+  "The ground fluent ATOM holds if the position of the joint named JOINT is in [MIN, MAX].
+OTHERWISE is the range (min max) from which the position is drawn where no fluent of the joint
+holds, or NIL."
   (atom '() :type list :read-only t)
   (joint "" :type string :read-only t)
   (min 0d0 :type double-float :read-only t)

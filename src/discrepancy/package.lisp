@@ -18,7 +18,7 @@ search, replay.")
    #:region #:region-name #:region-description #:region-bounds #:inside-region-p
    #:discrete-state #:observed-fluents
    ;; random numbers
-   #:philox #:content-hash #:unit-float
+   #:philox #:content-hash #:unit-float #:unit-point #:*samplers*
    ;; samples
    #:parameter #:parameter-name #:parameter-min #:parameter-max
    #:parameter-body #:parameter-axis #:tolerance-p

@@ -186,13 +186,18 @@ of their bodies that are no boxes."
 (defconstant +attempts+ 10000
   "A body is tried in so many places of the box around its region before it counts as nowhere.")
 
-(defun drawn-values (parameters seed content index attempt)
-  "Return the values of PARAMETERS at ATTEMPT to draw sample INDEX."
+(defun drawn-values (parameters units)
+  "Return the values of PARAMETERS at UNITS, a list of numbers from 0 to 1."
   (loop for parameter in parameters
-        for draw from (* attempt 4096)
+        for unit in units
         collect (+ (parameter-min parameter)
-                   (* (unit-float seed content index draw)
-                      (- (parameter-max parameter) (parameter-min parameter))))))
+                   (* unit (- (parameter-max parameter) (parameter-min parameter))))))
+
+(defun redrawn-values (parameters seed content index attempt)
+  "Return the values of PARAMETERS at a later ATTEMPT to draw sample INDEX."
+  (drawn-values parameters (loop for nil in parameters
+                                 for draw from (* attempt 4096)
+                                 collect (unit-float seed content index draw))))
 
 (defun place-of (parameters values body)
   "Return the pose with the coordinates of BODY that are among the VALUES of PARAMETERS."
@@ -205,11 +210,13 @@ of their bodies that are no boxes."
     (make-pose (or (value :x) 0d0) (or (value :y) 0d0) (or (value :z) 0d0)
                :yaw (or (value :yaw) 0d0))))
 
-(defun draw-sample (parameters seed content index)
-  "Return the SAMPLE number INDEX of PARAMETERS: each is uniform between its bounds, those of a body
-in a region that is no box uniform in it, by rejection; a pure function of SEED, CONTENT (the hash
-of the trace) and INDEX.  Signals SAMPLING-ERROR if a region seems to be empty."
-  (let ((values (drawn-values parameters seed content index 0)))
+(defun draw-sample (parameters seed content index &key (sampler :independent))
+  "Return the SAMPLE number INDEX of PARAMETERS, by SAMPLER (samplers.lisp): each is uniform between
+its bounds, those of a body in a region that is no box uniform in it, by rejection; a pure function
+of SEED, CONTENT (the hash of the trace) and INDEX.  Signals SAMPLING-ERROR if a region seems to be
+empty."
+  (let ((values (drawn-values parameters
+                              (unit-point sampler seed content index (length parameters)))))
     (loop for body in (remove-duplicates (loop for parameter in parameters
                                                when (parameter-region parameter)
                                                  collect (parameter-body parameter)))
@@ -228,7 +235,7 @@ of the trace) and INDEX.  Signals SAMPLING-ERROR if a region seems to be empty."
                             (mapcar (lambda (parameter old new)
                                       (if (eq (parameter-body parameter) body) new old))
                                     parameters values
-                                    (drawn-values parameters seed content index attempt)))))
+                                    (redrawn-values parameters seed content index attempt)))))
     (make-sample index parameters (coerce values '(simple-array double-float (*))))))
 
 (defun pose-with (pose axis value)

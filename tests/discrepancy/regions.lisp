@@ -49,7 +49,8 @@
   (let ((disk '(where (box (x -1 1) (y -1 1)) in-the-unit-disk-p)))
     (is-true (inside disk 0.5d0 0.5d0 0))
     (is-false (inside disk 0.9d0 0.9d0 0))
-    (is (string= "#<REGION test (x in [-1.0d0, 1.0d0[, y in [-1.0d0, 1.0d0[ where in-the-unit-disk-p)>"
+    (is (string= (format nil "#<REGION test (x in [-1.0d0, 1.0d0[, y in [-1.0d0, 1.0d0[ where ~
+                              in-the-unit-disk-p)>")
                  (princ-to-string (described-region disk))))))
 
 (test boxes-that-are-certainly-inside
@@ -71,7 +72,8 @@
                                 ((polygon (0 0) (1 0) 3) "corner (x y)")
                                 ((union) "union of no regions")
                                 ((where (interval x 0 1)) "(where region function-name)")
-                                ((intersection (interval x 0 1) (interval x 2 3)) "nothing is in it")
+                                ((intersection (interval x 0 1) (interval x 2 3))
+                                 "nothing is in it")
                                 ((sphere 1) "sphere is no kind of region"))
         do (let ((report (report-of 'discrepancy:abstraction-error
                                     (lambda () (described-region form)))))
