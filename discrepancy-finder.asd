@@ -264,7 +264,7 @@ The environment variable CXX names another compiler than g++."))
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
   :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "alexandria"
-               "xmls")
+               "xmls" "salza2")
   :pathname "src/projection/"
   :serial t
   :components ((:file "package") (:file "conditions")
@@ -281,7 +281,11 @@ The environment variable CXX names another compiler than g++."))
                (:module "perception" :serial t
                 :components ((:file "surface") (:file "detecting")))
                (:module "manipulation" :serial t
-                :components ((:file "column-arm")))))
+                :components ((:file "column-arm")))
+               (:module "pictures" :serial t
+                :components ((:file "solids") (:file "viewpoints") (:file "png")
+                             (:file "ray-casting") (:file "top-view")
+                             (:file "view-world")))))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."

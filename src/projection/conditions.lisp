@@ -78,3 +78,10 @@ beyond the limit of what it means."))
                          (:head "(:head pan-joint tilt-joint)")
                          (:camera "(:camera link)"))))))
   (:documentation "Signaled when a robot is to do what it has no part for."))
+
+(define-condition picture-error (projection-error)
+  ((reason :initarg :reason :reader picture-error-reason
+           :documentation "What is wrong, as a string without a full stop."))
+  (:report (lambda (condition stream)
+             (format stream "~a." (picture-error-reason condition))))
+  (:documentation "Signaled when a picture cannot be drawn as asked for, or not be written."))

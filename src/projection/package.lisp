@@ -18,6 +18,7 @@
    #:projection-scene #:observed-pose #:held-item #:settle #:interpenetration #:state-hash
    #:simulated-seconds #:visible-part
    ;; pictures
+   #:view-world #:viewing-pose #:picture-error #:picture-error-reason
    ;; manipulation
    ;; process modules
    #:execute-designator #:executes-p #:drive-base #:move-arm #:move-head
