@@ -3,7 +3,7 @@
 ;;;; A ray goes through the middle of each pixel.  What it meets gets the colour of its body, bright
 ;;;; where its surface faces the light and the light gets there, which a second ray asks.  Pixels
 ;;;; that differ much from a neighbour are on an edge: they get the mean of four more rays.  The
-;;;; walls on the near side are cut away: rays begin behind them.
+;;;; walls on the near side are cut away: rays begin behind them.  The light is within the walls.
 
 (in-package #:discrepancy-finder.projection)
 
@@ -24,13 +24,15 @@
 (defstruct (canvas (:copier nil))
   "What rays need to know.  FRAME has the position of the camera and its axes forward, left and up,
 these as long as half the picture is wide and high; COLORS has the colour of each body, three
-numbers; CUTS are the faces, four numbers each, behind which rays begin."
+numbers; WALLS are the faces around everything, four numbers each, CUTS those of them on which rays
+begin."
   (world nil :read-only t)
   (frame nil :type numbers :read-only t)
   (flat nil :read-only t)
   (width 0 :type fixnum :read-only t)
   (height 0 :type fixnum :read-only t)
   (colors nil :type hash-table :read-only t)
+  (walls nil :type numbers :read-only t)
   (cuts nil :type numbers :read-only t)
   (passed '() :type list :read-only t))
 
@@ -92,7 +94,7 @@ sky."
              (start (ray-beginning x y z (/ dx norm) (/ dy norm) (/ dz norm)
                                    (canvas-cuts canvas)))
              (live (< start (- +sight+ 1)))
-             (from (if live (/ start norm) 0d0))
+             (from (if live (/ (+ start 1d-6) norm) 0d0))
              (to (/ (if live +sight+ 1d-3) norm))
              (z (if live z 1000d0))
              (place (* 6 index)))
@@ -108,25 +110,44 @@ sky."
 (defun cast-canvas-rays (canvas rays)
   (bullet:cast-rays (canvas-world canvas) rays :passed (canvas-passed canvas)))
 
+(defun light-distance (x y z light walls)
+  "Return how far (m) the light at the point X Y Z is, in the direction LIGHT, within WALLS."
+  (declare (double-float x y z) (type numbers light walls) (optimize speed (safety 1)))
+  (let ((distance 10d0))
+    (declare (double-float distance))
+    (loop for i of-type fixnum from 0 below (length walls) by 4
+          for nx = (aref walls i) for ny = (aref walls (+ i 1)) for nz = (aref walls (+ i 2))
+          for inside = (- (+ (* nx x) (* ny y) (* nz z)) (aref walls (+ i 3)))
+          for speed = (+ (* nx (aref light 0)) (* ny (aref light 1)) (* nz (aref light 2)))
+          do (when (< speed -1d-6)
+               (setf distance (min distance (- (/ inside (- speed)) 1d-6)))))
+    (max distance 1d-6)))
+
+(defun write-light-ray (hits index light walls rays)
+  "Write the ray from the point that ray INDEX met to the light into RAYS."
+  (declare (type numbers hits light walls rays) (fixnum index) (optimize speed (safety 1)))
+  (let ((hit (* 7 index)) (ray (* 6 index)))
+    (declare (fixnum hit ray))
+    (dotimes (axis 3)
+      ;; Begin just outside of the surface.
+      (setf (aref rays (+ ray axis))
+            (+ (aref hits (+ hit axis)) (* 1d-4 (aref hits (+ hit 3 axis))))))
+    (let ((distance (light-distance (aref rays ray) (aref rays (+ ray 1)) (aref rays (+ ray 2))
+                                    light walls)))
+      (declare (double-float distance))
+      (dotimes (axis 3)
+        (setf (aref rays (+ ray 3 axis))
+              (+ (aref rays (+ ray axis)) (* distance (aref light axis))))))))
+
 (defun shadows (canvas bodies hits)
   "Return a vector that says for each of the HITS on BODIES what keeps the light away, or NIL."
-  (declare (simple-vector bodies) (type numbers hits) (optimize speed (safety 1)))
   (let* ((count (length bodies))
-         (rays (make-array (* 6 count) :element-type 'double-float))
+         (rays (make-array (* 6 count) :element-type 'double-float :initial-element 1000d0))
          (light (number-vector *light*)))
-    (declare (type numbers rays light) (fixnum count))
     (dotimes (index count)
-      (dotimes (axis 3)
-        (let* ((met (svref bodies index))
-               ;; Begin just outside of the surface.
-               (point (if met
-                          (+ (aref hits (+ (* 7 index) axis))
-                             (* 1d-4 (aref hits (+ (* 7 index) 3 axis))))
-                          1000d0)))
-          (declare (double-float point))
-          (setf (aref rays (+ (* 6 index) axis)) point
-                (aref rays (+ (* 6 index) 3 axis))
-                (+ point (* (if met 10d0 1d-3) (aref light axis)))))))
+      (if (svref bodies index)
+          (write-light-ray hits index light (canvas-walls canvas) rays)
+          (incf (aref rays (* 6 index)) 1d-3)))
     (values (cast-canvas-rays canvas rays))))
 
 (defun write-color (canvas body hits index lit colors)
@@ -232,12 +253,15 @@ neighbour."
 (defun picture-octets (projection solids viewpoint width height &key passed)
   "Return the octets of the PNG file with what is seen of PROJECTION, with SOLIDS, from VIEWPOINT.
 PASSED is a list of bodies that are not shown."
-  (png-octets (canvas-pixels
-               (make-canvas :world (projection-world projection)
-                            :frame (viewpoint-frame viewpoint) :flat (viewpoint-flat viewpoint)
-                            :width width :height height :colors (body-colors solids)
-                            :cuts (number-vector
-                                   (apply #'append
-                                          (near-walls solids (viewpoint-pose viewpoint))))
-                            :passed passed))
-              width height))
+  (let ((walls (enclosing-faces solids)))
+    (png-octets (canvas-pixels
+                 (make-canvas :world (projection-world projection)
+                              :frame (viewpoint-frame viewpoint)
+                              :flat (viewpoint-flat viewpoint) :width width :height height
+                              :colors (body-colors solids)
+                              :walls (number-vector (apply #'append walls))
+                              :cuts (number-vector
+                                     (apply #'append
+                                            (near-faces walls (viewpoint-pose viewpoint))))
+                              :passed passed))
+                width height)))

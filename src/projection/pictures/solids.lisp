@@ -127,9 +127,14 @@ else."
   (let ((bounded (remove :ground solids :key #'solid-role)))
     (or (remove-if #'wall-p bounded) bounded)))
 
+(defun along (normal point)
+  "Return how far (m) the position of the pose POINT is along NORMAL, a list of three numbers."
+  (destructuring-bind (x y z) normal
+    (+ (* x (pose-x point)) (* y (pose-y point)) (* z (pose-z point)))))
+
 (defun inner-faces (wall)
-  "Return the two faces of WALL as lists (nx ny nz d): the points p with n.p >= d are outside of it
-there."
+  "Return the two faces of WALL as lists (nx ny nz d): the points p with n.p >= d are on the outside
+of the wall there."
   (let* ((sizes (rest (solid-shape wall)))
          (axis (position (reduce #'min sizes) sizes))
          (pose (solid-pose wall))
@@ -141,22 +146,19 @@ there."
           for outwards = (mapcar (lambda (part) (* side part)) normal)
           collect (append outwards (list (+ (along outwards pose) (/ (nth axis sizes) 2)))))))
 
-(defun along (normal point)
-  "Return how far (m) the position of the pose POINT is along NORMAL, a list of three numbers."
-  (destructuring-bind (x y z) normal
-    (+ (* x (pose-x point)) (* y (pose-y point)) (* z (pose-z point)))))
-
-(defun near-walls (solids camera)
-  "Return the inner faces, as INNER-FACES does, of those walls among SOLIDS that stand between the
-position of the pose CAMERA and all contents."
+(defun enclosing-faces (solids)
+  "Return the inner faces, as INNER-FACES does, of those walls among SOLIDS that have all contents
+on one side."
   (let ((contents (contents solids)))
-    (loop for wall in (remove-if-not #'wall-p solids)
-          append (loop for face in (inner-faces wall)
-                       for normal = (subseq face 0 3)
-                       for distance = (fourth face)
-                       when (and (< (along normal camera) distance)
-                                 (notany #'wall-p contents)
-                                 (every (lambda (solid)
-                                          (> (along normal (solid-pose solid)) (- distance 1d-3)))
-                                        contents))
-                         collect face))))
+    (unless (some #'wall-p contents)
+      (loop for wall in (remove-if-not #'wall-p solids)
+            append (loop for face in (inner-faces wall)
+                         when (every (lambda (solid)
+                                       (> (along (subseq face 0 3) (solid-pose solid))
+                                          (- (fourth face) 1d-3)))
+                                     contents)
+                           collect face)))))
+
+(defun near-faces (faces camera)
+  "Return those of FACES behind which the position of the pose CAMERA is."
+  (remove-if-not (lambda (face) (< (along (subseq face 0 3) camera) (fourth face))) faces))

@@ -153,11 +153,14 @@
             (list (+ (first high) *margin*) (+ (second high) *margin*)))))
 
 (defun below-ceilings (solids)
-  "Return SOLIDS without the walls that are above everything else."
+  "Return SOLIDS without the walls that lie above everything else."
   (let ((top (make-pose 0 0 1000)))
     (remove-if (lambda (solid)
                  (and (wall-p solid)
-                      (near-walls (cons solid (contents solids)) top)))
+                      (loop for face in (near-faces (enclosing-faces
+                                                     (cons solid (contents solids)))
+                                                    top)
+                            thereis (< (third face) -0.7d0))))
                solids)))
 
 (defun draw-top-view (projection solids width stream)
