@@ -108,7 +108,17 @@ sky."
         live))))
 
 (defun cast-canvas-rays (canvas rays)
-  (bullet:cast-rays (canvas-world canvas) rays :passed (canvas-passed canvas)))
+  "Return the bodies and the hits of RAYS.  One that begins in the ground meets nothing."
+  (multiple-value-bind (bodies hits)
+      (bullet:cast-rays (canvas-world canvas) rays :passed (canvas-passed canvas))
+    (declare (simple-vector bodies) (type numbers hits))
+    (loop for body across bodies
+          for index of-type fixnum from 0
+          do (when (and body
+                        (< (aref hits (+ (* 7 index) 6)) 1d-9)
+                        (eq (first (bullet:body-shape body)) :plane))
+               (setf (svref bodies index) nil)))
+    (values bodies hits)))
 
 (defun light-distance (x y z light walls)
   "Return how far (m) the light at the point X Y Z is, in the direction LIGHT, within WALLS."

@@ -41,11 +41,25 @@ is a list of three numbers from 0 to 1; NAME is that of the part of the scene, a
         ((eq (first (bullet:body-shape body)) :plane) :ground)
         (t :fixture)))
 
+(defun link-color (projection body)
+  "Return the colour that the model of BODY gives to its link, or NIL."
+  (let* ((text (princ-to-string (bullet:body-name body)))
+         (slash (position #\/ text))
+         (part (and slash (find (body-owner body) (scene-parts (projection-scene projection))
+                                :key #'scene-part-name)))
+         (link (and part (find-urdf-link (scene-part-model part) (subseq text (1+ slash))))))
+    (and link (urdf-link-visual-color link)
+         (loop for number in (urdf-link-visual-color link)
+               repeat 3
+               collect (float number 1d0)))))
+
 (defun body-color (projection body role)
-  (if (eq role :item)
-      (nth (mod (position body (projection-items projection) :key #'cdr) (length *item-colors*))
-           *item-colors*)
-      (rest (assoc role *role-colors*))))
+  (cond ((link-color projection body))
+        ((eq role :item)
+         (nth (mod (position body (projection-items projection) :key #'cdr)
+                   (length *item-colors*))
+              *item-colors*))
+        (t (rest (assoc role *role-colors*)))))
 
 (defun shape-solids (body role name color pose shape)
   (if (eq (first shape) :compound)
