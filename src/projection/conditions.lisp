@@ -93,3 +93,11 @@ beyond the limit of what it means, or outside of its tolerance."))
   (:report (lambda (condition stream)
              (format stream "~a." (picture-error-reason condition))))
   (:documentation "Signaled when a picture cannot be drawn as asked for, or not be written."))
+
+(define-condition unknown-joint (projection-error)
+  ((name :initarg :name :reader unknown-joint-name :documentation "The name in question.")
+   (scene :initarg :scene :reader unknown-joint-scene :documentation "The scene."))
+  (:report (lambda (condition stream)
+             (format stream "The scene ~(~a~) has no movable joint ~a."
+                     (unknown-joint-scene condition) (unknown-joint-name condition))))
+  (:documentation "Signaled when a joint is named that neither the robot nor a fixture has."))
