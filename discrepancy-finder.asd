@@ -59,7 +59,8 @@ The environment variable CXX names another compiler than g++."))
                "alexandria" "command-line-arguments")
   :pathname "src/interface/"
   :serial t
-  :components ((:file "package") (:file "repl") (:file "command-line") (:file "subcommands")
+  :components ((:file "package") (:file "repl") (:file "command-line") (:file "simulate")
+               (:file "subcommands")
                (:file "theory-commands") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
@@ -287,7 +288,7 @@ The environment variable CXX names another compiler than g++."))
                (:module "pictures" :serial t
                 :components ((:file "solids") (:file "viewpoints") (:file "png")
                              (:file "ray-casting") (:file "top-view")
-                             (:file "view-world")))))
+                             (:file "view-world") (:file "frames")))))
 
 (asdf:defsystem "discrepancy-finder/statistics"
   :description "Distributions, regression, and rules that decide when there are enough samples."
@@ -308,8 +309,8 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "conditions")
                (:file "random") (:file "abstraction") (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
-               (:file "results") (:file "search") (:file "report") (:file "replay")
-               (:file "replay-file")))
+               (:file "results") (:file "search") (:file "report") (:file "scene-runs")
+               (:file "replay") (:file "replay-file")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."
@@ -377,7 +378,8 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
                              (:file "rays") (:file "mechanisms")))
                (:module "projection" :serial t
-                :components ((:file "two-regions") (:file "head") (:file "perception")))
+                :components ((:file "two-regions") (:file "head") (:file "perception")
+                             (:file "pictures")))
                (:module "statistics"
                 :serial t
                 :components ((:file "normal") (:file "distributions") (:file "least-squares")

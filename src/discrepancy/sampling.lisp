@@ -82,8 +82,9 @@ are none."
         collect (make-parameter nil name low high meaning)))
 
 (defun initial-parameters (domain trace)
-  "Return the list of the PARAMETERs of DOMAIN that are sampled for TRACE: coordinates of bodies, then
-tolerances.  Signals SAMPLING-ERROR if the initial state of TRACE says of a body that it is nowhere, or that an item is held."
+  "Return the list of the PARAMETERs of DOMAIN that are sampled for TRACE: coordinates of bodies,
+then tolerances.  Signals SAMPLING-ERROR if the initial state of TRACE says of a body that it is
+nowhere, or that an item is held."
   (let ((state (symbolic:trace-initial-state trace)))
     (dolist (observer (domain-observers domain))
       (when (and (attachment-p observer) (ec:fluent-value state (attachment-atom observer)))
@@ -129,8 +130,8 @@ of SEED, CONTENT (the hash of the trace) and INDEX."
   (flet ((part (key) (if (eq key axis) value (coordinate pose key))))
     (make-pose (part :x) (part :y) (part :z) :yaw (part :yaw))))
 
-(defun sample-poses (domain sample)
-  "Return the property list of the poses that the bodies of DOMAIN's scene have in SAMPLE."
+(defun sample-poses (scene sample)
+  "Return the property list of the poses that the bodies of SCENE have in SAMPLE."
   (let ((poses '()))
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
@@ -138,7 +139,7 @@ of SEED, CONTENT (the hash of the trace) and INDEX."
           unless (tolerance-p parameter)
             do (setf (getf poses body)
                      (pose-with (or (getf poses body)
-                                    (projection:scene-body-pose (domain-scene domain) body))
+                                    (projection:scene-body-pose scene body))
                                 (parameter-axis parameter) value)))
     poses))
 

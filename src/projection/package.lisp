@@ -23,6 +23,7 @@
    #:observed-joint #:held-items #:item-at-rest-p
    ;; pictures
    #:view-world #:viewing-pose #:picture-error #:picture-error-reason
+   #:watch-projection #:recorder #:make-frame-recorder #:frame-observer #:finish-frames
    ;; manipulation
    ;; process modules
    #:execute-designator #:executes-p #:drive-base #:move-arm #:move-head

@@ -8,9 +8,11 @@
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (recorder (:copier nil))
-  "Writes frames into DIRECTORY.  CAPTIONS is a list of texts, the last frame's first; PROBLEM the
-error that kept a frame from being written, or NIL."
+  "Writes frames into DIRECTORY.  CAMERA is the pose from which all perspective pictures are taken,
+NIL before the first; CAPTIONS a list of texts, the last frame's first; PROBLEM the error that kept
+a frame from being written, or NIL."
   (directory nil :type pathname :read-only t)
+  (camera nil :type (or null pose))
   (captions '() :type list)
   (problem nil))
 
@@ -36,30 +38,38 @@ PICTURE-ERROR if that cannot be or nothing can be written there."
   (merge-pathnames (format nil "frame-~3,'0d-~(~a~).~a" number view type)
                    (recorder-directory recorder)))
 
+(defun frame-camera (recorder projection)
+  "Return the pose from which RECORDER takes its perspective pictures of PROJECTION."
+  (or (recorder-camera recorder)
+      (setf (recorder-camera recorder)
+            (viewpoint-pose (scene-viewpoint (projection-solids projection) 4 3)))))
+
 (defun record-frame (recorder projection caption)
   "Write the pictures of PROJECTION, as it is now, as the next frame of RECORDER, with the text
 CAPTION.  After an error no more are written; FINISH-FRAMES signals it."
   (unless (recorder-problem recorder)
     (handler-case
         (let ((number (length (recorder-captions recorder))))
-          (loop for (view type) in '((:top "svg") (:perspective "png"))
-                do (view-world projection :file (frame-file recorder number view type) :view view))
+          (view-world projection :file (frame-file recorder number :top "svg") :view :top)
+          (view-world projection :file (frame-file recorder number :perspective "png")
+                                 :camera (frame-camera recorder projection))
           (push caption (recorder-captions recorder)))
       (error (condition) (setf (recorder-problem recorder) condition)))))
 
-(defun frame-caption (projection designator failure)
-  "Return what a frame of PROJECTION after DESIGNATOR is about; without one it is the beginning or
-the end."
-  (format nil "~,2f s: ~@[~a, ~]~a" (simulated-seconds projection) designator
-          (cond (failure (source:condition-sentence failure))
-                (designator "done")
-                (t "the world"))))
+(defun frame-caption (recorder projection designator failure)
+  "Return what the next frame of RECORDER, after DESIGNATOR, is about; without one it is the
+beginning or the end."
+  (format nil "~,2f s: ~a" (simulated-seconds projection)
+          (cond (failure (format nil "~a: ~a" designator (source:condition-sentence failure)))
+                (designator (princ-to-string designator))
+                ((recorder-captions recorder) "the end")
+                (t "the beginning"))))
 
 (defun frame-observer (recorder)
   "Return a function of a projection, a designator and a failure, or NIL, that records frames by
 RECORDER; see WATCH-PROJECTION."
   (lambda (projection designator failure)
-    (record-frame recorder projection (frame-caption projection designator failure))))
+    (record-frame recorder projection (frame-caption recorder projection designator failure))))
 
 (defun frames-page (recorder)
   "Return the text of an HTML page with all frames of RECORDER."

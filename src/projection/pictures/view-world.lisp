@@ -60,21 +60,25 @@
 
 (defun write-file-at-once (octets file)
   "Write OCTETS into FILE, which appears, or changes, when all of them are written."
-  (let* ((path (merge-pathnames file (uiop:getcwd)))
-         (temporary (merge-pathnames (format nil ".~a-~36r.tmp" (pathname-name path)
-                                             (random (expt 36 8) (make-random-state t)))
-                                     path)))
-    (unwind-protect
-         (handler-case
-             (progn
-               (with-open-file (stream temporary :direction :output :if-exists :supersede
-                                                 :element-type '(unsigned-byte 8))
-                 (write-sequence octets stream))
-               (uiop:rename-file-overwriting-target temporary path))
-           ((or file-error stream-error) (condition)
+  (let* ((name (source:native-name (merge-pathnames file (uiop:getcwd))))
+         (temporary (format nil "~a.~36r.tmp" name (random (expt 36 8) (make-random-state t)))))
+    (flet ((give-up (reason)
              (picture-problem "~a cannot be written: ~a" (source:native-name file)
-                              (source:condition-sentence condition))))
-      (ignore-errors (uiop:delete-file-if-exists temporary)))))
+                              (string-right-trim "." reason))))
+      (unwind-protect
+           (handler-case
+               (progn
+                 (with-open-file (stream (source:native-path temporary)
+                                         :direction :output :if-exists :supersede
+                                         :element-type '(unsigned-byte 8))
+                   (write-sequence octets stream))
+                 ;; RENAME-FILE takes brackets in a name for a pattern.
+                 (multiple-value-bind (success number) (sb-unix:unix-rename temporary name)
+                   (unless success
+                     (give-up (sb-int:strerror number)))))
+             ((or file-error stream-error) (condition)
+               (give-up (source:condition-sentence condition))))
+        (sb-unix:unix-unlink temporary)))))
 
 (defun view-world (projection &key file (view (if file :perspective :top)) camera (width 800)
                                 height)
@@ -88,7 +92,7 @@ equal states have equal pictures.  Signals PICTURE-ERROR, and MISSING-ROBOT-PART
 camera that there is not."
   (check-picture-size width height)
   (unless (member view '(:top :perspective :camera))
-    (picture-problem "The view is ~s where :top, :perspective or :camera was expected" view))
+    (picture-problem "The view is ~(~s~) where :top, :perspective or :camera was expected" view))
   (unless (or (null camera) (and (pose-p camera) (eq view :perspective)))
     (picture-problem "The camera is ~s where a pose, for a view :perspective, was expected" camera))
   (let* ((file (and file (source:native-path file)))
