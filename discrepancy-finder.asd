@@ -363,7 +363,9 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
                              (:file "rays")))
                (:module "projection" :serial t
-                :components ((:file "two-regions") (:file "head") (:file "perception")))
+                :components ((:file "two-regions") (:file "head") (:file "perception")
+                             (:file "kitchen") (:file "kitchen-effects")
+                             (:file "kitchen-fidelity")))
                (:module "discrepancy"
                 :serial t
                 :components ((:file "random") (:file "quantile") (:file "least-squares")
