@@ -106,7 +106,7 @@ The environment variable CXX names another compiler than g++."))
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
                (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")
-               (:file "rays")))
+               (:file "rays") (:file "mechanisms") (:file "inverse-kinematics")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -274,9 +274,10 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "clauses") (:file "parameters") (:file "scene")
                              (:file "materials") (:file "robots") (:file "reading")))
                (:module "worlds" :serial t
-                :components ((:file "robot") (:file "projection")))
+                :components ((:file "robot") (:file "projection") (:file "building")
+                             (:file "observations") (:file "performing")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "head")))
+                :components ((:file "profiles") (:file "runner") (:file "head")))
                (:module "navigation" :serial t
                 :components ((:file "going")))
                (:module "perception" :serial t
@@ -284,15 +285,24 @@ The environment variable CXX names another compiler than g++."))
                (:module "manipulation" :serial t
                 :components ((:file "column-arm")))))
 
+(asdf:defsystem "discrepancy-finder/statistics"
+  :description "Distributions, regression, and rules that decide when there are enough samples."
+  :depends-on ("discrepancy-finder/geometry")
+  :pathname "src/statistics/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "normal") (:file "beta")
+               (:file "student") (:file "least-squares") (:file "regression") (:file "rules")
+               (:file "evidence") (:file "paper-rule") (:file "zero-failure")
+               (:file "prediction")))
+
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
   :depends-on ("discrepancy-finder/symbolic-execution" "discrepancy-finder/projection"
-               "discrepancy-finder/json" "alexandria")
+               "discrepancy-finder/statistics" "discrepancy-finder/json" "alexandria")
   :pathname "src/discrepancy/"
   :serial t
-  :components ((:file "package") (:file "statistics-conditions") (:file "conditions")
-               (:file "random") (:file "quantile") (:file "least-squares") (:file "confidence")
-               (:file "paper-rule") (:file "abstraction") (:file "define-abstraction")
+  :components ((:file "package") (:file "conditions")
+               (:file "random") (:file "abstraction") (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "replay")
                (:file "replay-file")))
@@ -361,17 +371,21 @@ The environment variable CXX names another compiler than g++."))
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
-                             (:file "rays")))
+                             (:file "rays") (:file "mechanisms")))
                (:module "projection" :serial t
-                :components ((:file "two-regions") (:file "head") (:file "perception")
-                             (:file "kitchen") (:file "kitchen-effects")
-                             (:file "kitchen-fidelity")))
+                :components ((:file "two-regions") (:file "head") (:file "perception")))
+               (:module "statistics"
+                :serial t
+                :components ((:file "normal") (:file "distributions") (:file "least-squares")
+                             (:file "paper-rule") (:file "guaranteed-rules")))
                (:module "discrepancy"
                 :serial t
-                :components ((:file "random") (:file "quantile") (:file "least-squares")
-                             (:file "confidence") (:file "abstraction") (:file "search")
+                :components ((:file "random") (:file "abstraction") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
+               (:module "kitchen" :pathname "projection/" :serial t
+                :components ((:file "kitchen") (:file "kitchen-effects")
+                             (:file "kitchen-fidelity")))
                (:file "interface") (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))

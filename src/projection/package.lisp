@@ -9,7 +9,8 @@
    ;; scenes
    #:load-scene #:scene #:scene-name #:scene-file #:scene-files #:scene-parameters #:scene-parameter
    #:scene-with-parameters #:normalized-parameters #:scene-body-pose #:check-movable
-   #:scene-item-names #:scene-item-type #:scene-item-grasps #:scene-tolerances #:scene-knows-p
+   #:scene-item-names #:scene-item-type #:scene-item-grasps #:scene-tolerances #:scene-open-tolerances
+   #:scene-knows-p
    #:scene-robot-name
    ;; URDF
    #:read-urdf #:urdf-model #:urdf-model-name #:urdf-link #:urdf-joint
@@ -17,6 +18,9 @@
    #:projection #:make-projection #:close-projection #:with-projection #:projection-world
    #:projection-scene #:observed-pose #:held-item #:settle #:interpenetration #:state-hash
    #:simulated-seconds #:visible-part
+   #:projection-robot #:projection-fixtures #:projection-items #:projection-joints
+   #:projection-grasps #:projection-fidelity #:projection-parameter
+   #:observed-joint #:held-items #:item-at-rest-p
    ;; pictures
    ;; manipulation
    ;; process modules
@@ -24,4 +28,5 @@
    ;; conditions
    #:projection-error #:scene-error #:scene-error-file #:scene-error-line #:scene-error-reason
    #:urdf-error #:urdf-error-file #:urdf-error-line #:urdf-error-reason
-   #:unknown-parameter #:impossible-parameter #:unknown-body #:missing-robot-part))
+   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint
+   #:missing-robot-part))
