@@ -1,9 +1,9 @@
 ;;;; The kitchen: a workspace over three drawers, a dining table 2 m away, a door sill between them.
 ;;;;
 ;;;; The room is 5 x 4 m; its middle is the origin.  The workspace stands at the wall x = -2.5 and
-;;;; ends at x = -1.9; its top is at 0.85 m.  Drawer 1 is at y = -0.6, drawer 2 at y = 0, drawer 3 at
-;;;; y = 0.6; closed, a drawer is inside from x = -2.32 to x = -1.92, and its floor is at 0.6 m.  The
-;;;; table begins at x = 0.1; its top is at 0.75 m.
+;;;; ends at x = -1.9; its top is at 0.85 m.  Drawer 1 is at y = -0.6, drawer 2 at y = 0, drawer 3
+;;;; at y = 0.6; closed, a drawer is inside from x = -2.32 to x = -1.92, and its floor is at 0.6 m.
+;;;; The table begins at x = 0.1; its top is at 0.75 m.
 ;;;;
 ;;;; This file is data: reading it evaluates nothing.  Lengths in m, angles in rad, times in s.
 

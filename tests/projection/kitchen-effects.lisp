@@ -1,7 +1,7 @@
 ;;;; The three effects for which the kitchen is there, each found by sampling: an object is lost on
 ;;;; the way, an open drawer blocks the way from some positions and not from others, a spoon in a
-;;;; drawer is seen and reached from some poses of a region and not from others.  Nothing is arranged:
-;;;; a sample draws tolerances and poses, evenly and blindly, and physics decides.
+;;;; drawer is seen and reached from some poses of a region and not from others.  Nothing is
+;;;; arranged: a sample draws tolerances and poses, evenly and blindly, and physics decides.
 
 (in-package #:discrepancy-finder.tests)
 
