@@ -63,6 +63,6 @@
           (:head "head_pan_joint" "head_tilt_joint")
           (:camera "camera_link"))
   (:item bowl "bowl.urdf" (:at -2.1 -0.6 0.8835) (:material ceramic) (:grasps top))
-  (:item cereal "cereal.urdf" (:at -2.1 -0.2 0.962 1.5708) (:material cardboard))
+  (:item cereal "cereal.urdf" (:at -2.1 -0.2 0.962) (:material cardboard))
   (:item milk "milk.urdf" (:at -2.1 0.1 0.947) (:material cardboard))
   (:item spoon "spoon.urdf" (:at -2.12 0 0.6095 1.5708) (:material steel)))
