@@ -101,7 +101,7 @@ anything penetrates then, and where they are."
            (is (member (second (assoc :milk places)) '(:table :floor)))))
 
 (defun slide (drawer x y speed)
-  "Put the spoon into DRAWER, 1 to 3, at X from its back and Y from its middle (m), open it with SPEED
+  "Put the spoon into DRAWER, 1 to 3, at X from its back and Y from its middle (m), open it at SPEED
 (m/s) and close it.  Return how far the drawer and the spoon went out and back, and if all rest."
   (let ((name (format nil "drawer_~d_joint" drawer)))
     (with-kitchen (projection
