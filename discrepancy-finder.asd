@@ -281,7 +281,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "perception" :serial t
                 :components ((:file "surface") (:file "detecting")))
                (:module "manipulation" :serial t
-                :components ((:file "column-arm")))))
+                :components ((:file "column-arm") (:file "extents") (:file "grasps")
+                             (:file "fitting")))))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
