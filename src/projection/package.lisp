@@ -17,6 +17,9 @@
    #:projection #:make-projection #:close-projection #:with-projection #:projection-world
    #:projection-scene #:observed-pose #:held-item #:settle #:interpenetration #:state-hash
    #:simulated-seconds #:visible-part
+   #:projection-robot #:projection-fixtures #:projection-items #:projection-joints
+   #:projection-grasps #:projection-fidelity #:projection-parameter
+   #:observed-joint #:held-items #:item-at-rest-p
    ;; pictures
    ;; manipulation
    ;; process modules
@@ -24,4 +27,5 @@
    ;; conditions
    #:projection-error #:scene-error #:scene-error-file #:scene-error-line #:scene-error-reason
    #:urdf-error #:urdf-error-file #:urdf-error-line #:urdf-error-reason
-   #:unknown-parameter #:impossible-parameter #:unknown-body #:missing-robot-part))
+   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint
+   #:missing-robot-part))

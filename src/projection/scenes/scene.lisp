@@ -17,7 +17,7 @@
 (defstruct (scene-part (:copier nil))
   "A model of a scene: KIND is :fixture, :item or :robot.  TYPE and GRASPS are those of an item;
 ROLES, a property list of names of joints and links, and ARMS, a list of ARM-ROLES, those of a
-robot; MATERIAL is a name.  FORM is what it was read from."
+robot; MATERIAL is a name.  FORM is what it was read from.  PREPARED is what worlds keep here."
   (name nil :type keyword :read-only t)
   (kind :item :type keyword :read-only t)
   (model nil :type urdf-model :read-only t)
@@ -27,7 +27,8 @@ robot; MATERIAL is a name.  FORM is what it was read from."
   (grasps '() :type list :read-only t)
   (roles '() :type list :read-only t)
   (arms '() :type list :read-only t)
-  (form nil :type list :read-only t))
+  (form nil :type list :read-only t)
+  (prepared nil))
 
 (defstruct (scene (:copier %copy-scene))
   "What stands where.  PARAMETERS is a list of (name value documentation), TOLERANCES one of (name
