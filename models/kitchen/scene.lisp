@@ -42,7 +42,7 @@
   (:fixture sill "sill.urdf" (:at -0.6 0 0))
   (:fixture counter "counter.urdf" (:at -2.5 0 0) (:material stone))
   (:fixture table "table.urdf" (:at 0.5 0 0) (:material wood))
-  (:robot robot "../robot/robot.urdf" (:at -1.0 0 0 3.14159)
+  (:robot robot "../robot/robot.urdf" (:at -1.1 0 0 3.14159)
           (:torso "torso_lift_joint")
           (:arm left
                 (:joints "l_shoulder_pan_joint" "l_shoulder_lift_joint" "l_upper_arm_roll_joint"
@@ -51,7 +51,7 @@
                 (:tool "l_tool_link")
                 (:gripper "l_gripper_l_finger_joint")
                 (:fingers "l_gripper_l_finger_link" "l_gripper_r_finger_link")
-                (:parked 1.7 1.1 1.6 -2.1 1.2 -1.9 0.8))
+                (:parked 0.35 -0.35 0.61 -1.97 2.6 -1.98 2.25))
           (:arm right
                 (:joints "r_shoulder_pan_joint" "r_shoulder_lift_joint" "r_upper_arm_roll_joint"
                          "r_elbow_flex_joint" "r_forearm_roll_joint" "r_wrist_flex_joint"
@@ -59,10 +59,10 @@
                 (:tool "r_tool_link")
                 (:gripper "r_gripper_l_finger_joint")
                 (:fingers "r_gripper_l_finger_link" "r_gripper_r_finger_link")
-                (:parked -1.7 1.1 -1.6 -2.1 -1.2 -1.9 -0.8))
+                (:parked -0.35 -0.35 -0.61 -1.97 -2.6 -1.98 -2.25))
           (:head "head_pan_joint" "head_tilt_joint")
           (:camera "camera_link"))
-  (:item bowl "bowl.urdf" (:at -2.1 -0.6 0.8835) (:material ceramic))
+  (:item bowl "bowl.urdf" (:at -2.1 -0.6 0.8835) (:material ceramic) (:grasps top))
   (:item cereal "cereal.urdf" (:at -2.1 -0.2 0.962 1.5708) (:material cardboard))
   (:item milk "milk.urdf" (:at -2.1 0.1 0.947) (:material cardboard))
   (:item spoon "spoon.urdf" (:at -2.12 0 0.6095 1.5708) (:material steel)))
