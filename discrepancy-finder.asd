@@ -284,7 +284,9 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "surface") (:file "detecting")))
                (:module "manipulation" :serial t
                 :components ((:file "column-arm") (:file "extents") (:file "grasps")
-                             (:file "fitting")))))
+                             (:file "fitting") (:file "arms") (:file "gripper") (:file "ways")
+                             (:file "reaching") (:file "picking") (:file "placing")
+                             (:file "containers") (:file "modules")))))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."

@@ -6,9 +6,6 @@
 
 (in-package #:discrepancy-finder.projection)
 
-(defparameter *release-gap* 2d-3
-  "The height (m) above its target at which an item is let go.")
-
 (defconstant +turns+ 12
   "Something is put down, or carried, in so many orientations about the vertical.")
 

@@ -34,13 +34,16 @@ is what the plan is for, as it was given to FIND-REACH."
     (<= (sqrt (dot way way)) (arm-length projection arm))))
 
 (defun reach-from (projection arm goal tool begin end start ignored target)
-  "Return a REACH of ARM with its tool at TOOL, coming from BEGIN and leaving to END, by a
-configuration near START; or NIL and why not, :UNREACHABLE or :COLLISION."
+  "Return a REACH of ARM with its tool at TOOL, coming from BEGIN and leaving to END, a pose or a
+list of poses on the way, by a configuration near START; or NIL and why not, :UNREACHABLE or
+:COLLISION."
   (let ((reason :unreachable))
     (dolist (there (solve projection arm tool start :count *solutions* :restarts 6)
                    (values nil reason))
       (let ((back (straight-way projection arm there tool begin))
-            (leaving (straight-way projection arm there tool end)))
+            (leaving (if (listp end)
+                         (way-through projection arm there end)
+                         (straight-way projection arm there tool end))))
         (when (and back leaving)
           (setf reason :collision)
           (let ((before (first (last back))))

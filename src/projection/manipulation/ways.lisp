@@ -104,16 +104,22 @@ if none is found."
   "Return the pose at FRACTION of the way from FROM to TO, which must be turned alike."
   (moved from (scaled (mapcar #'- (pose-position to) (pose-position from)) fraction)))
 
-(defun straight-way (projection arm start from to)
-  "Return a way of ARM from START, where its tool is at the pose FROM, with the tool on a straight
-line to TO; NIL if the arm cannot."
-  (let* ((line (mapcar #'- (pose-position to) (pose-position from)))
-         (pieces (max 1 (ceiling (sqrt (dot line line)) *line-step*)))
-         (positions start))
-    (loop for piece from 1 to pieces
-          for next = (first (solve projection arm (between-poses from to (/ piece pieces))
-                                   positions :restarts 0))
+(defun way-through (projection arm start poses)
+  "Return a way of ARM from START with its tool at each of POSES, which are near each other; NIL if
+the arm cannot."
+  (let ((positions start))
+    (loop for pose in poses
+          for next = (first (solve projection arm pose positions :restarts 0))
           do (when (or (null next) (> (joint-distance (arm-joints arm) positions next) 0.6d0))
                (return nil))
              (setf positions next)
           collect next)))
+
+(defun straight-way (projection arm start from to)
+  "Return a way of ARM from START, where its tool is at the pose FROM, with the tool on a straight
+line to TO; NIL if the arm cannot."
+  (let* ((line (mapcar #'- (pose-position to) (pose-position from)))
+         (pieces (max 1 (ceiling (sqrt (dot line line)) *line-step*))))
+    (way-through projection arm start
+                 (loop for piece from 1 to pieces
+                       collect (between-poses from to (/ piece pieces))))))
