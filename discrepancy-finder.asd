@@ -106,7 +106,7 @@ The environment variable CXX names another compiler than g++."))
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
                (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")
-               (:file "rays")))
+               (:file "rays") (:file "mechanisms") (:file "inverse-kinematics")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -365,7 +365,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
-                             (:file "rays")))
+                             (:file "rays") (:file "mechanisms")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")))
                (:module "discrepancy"
