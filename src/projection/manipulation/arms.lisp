@@ -198,5 +198,4 @@ POSITIONS but the bodies IGNORED."
     (null (bullet:path-clearance (robot-mechanism robot) (base-pose robot) start goal
                                  (append (arm-bodies projection (cddr (arm-links arm)))
                                          (carried-bodies projection arm))
-                                 (arm-obstacles projection arm :ignored ignored)
-                                 0d0))))
+                                 (arm-obstacles projection arm :ignored ignored)))))
