@@ -206,12 +206,11 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
   (let ((positions (joint-positions (projection-robot projection))))
     (map-into positions (lambda (from to) (interpolate from to fraction)) start goal)))
 
-(defun wanted-distance (projection designator container sign)
+(defun wanted-distance (designator container sign)
   "Return by how much (m or rad) the joint of CONTAINER is to move: positive to open."
   (let ((distance (plan:desig-prop-value designator :distance))
         (position (bullet:joint-position (container-joint container)))
         (joint (container-urdf-joint container)))
-    (declare (ignorable projection))
     (cond ((and (realp distance) (plusp distance)) (* sign (decimal-double distance)))
           (distance (misunderstood designator "a distance is a positive number"))
           ((plusp sign) (- (or (urdf-joint-upper joint) 0d0) position))
@@ -222,7 +221,7 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
 (m or rad) its joint has moved."
   (forget-lost-grasps projection)
   (let* ((container (designated-container projection designator))
-         (distance (wanted-distance projection designator container sign))
+         (distance (wanted-distance designator container sign))
          (names (mapcar #'arm-name (designated-arms projection designator :arm)))
          (what (format nil "the handle of ~a" (container-name container)))
          (reason :unreachable)

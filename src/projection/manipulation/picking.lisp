@@ -43,7 +43,7 @@ tool at the pose TOOL; 1 is all."
                                     (turned pose (mass-centre projection item)))
                         (pose-position tool)))
          (down (list 0d0 0d0 (- weight)))
-         (across (- (dot down down) (expt (dot down closing) 2)))
+         (across (max 0d0 (- (dot down down) (expt (dot down closing) 2))))
          (torque (abs (dot (cross lever down) closing))))
     (sqrt (+ (/ across (expt capacity 2))
              (expt (/ torque (* capacity (projection-parameter projection :pad-radius))) 2)))))
