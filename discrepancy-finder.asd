@@ -289,15 +289,24 @@ The environment variable CXX names another compiler than g++."))
                              (:file "reaching") (:file "picking") (:file "placing")
                              (:file "containers") (:file "modules")))))
 
+(asdf:defsystem "discrepancy-finder/statistics"
+  :description "Distributions, regression, and rules that decide when there are enough samples."
+  :depends-on ("discrepancy-finder/geometry")
+  :pathname "src/statistics/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "normal") (:file "beta")
+               (:file "student") (:file "least-squares") (:file "regression") (:file "rules")
+               (:file "evidence") (:file "paper-rule") (:file "zero-failure")
+               (:file "prediction")))
+
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
   :depends-on ("discrepancy-finder/symbolic-execution" "discrepancy-finder/projection"
-               "discrepancy-finder/json" "alexandria")
+               "discrepancy-finder/statistics" "discrepancy-finder/json" "alexandria")
   :pathname "src/discrepancy/"
   :serial t
-  :components ((:file "package") (:file "statistics-conditions") (:file "conditions")
-               (:file "random") (:file "quantile") (:file "least-squares") (:file "confidence")
-               (:file "paper-rule") (:file "abstraction") (:file "define-abstraction")
+  :components ((:file "package") (:file "conditions")
+               (:file "random") (:file "abstraction") (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "replay")
                (:file "replay-file")))
@@ -370,10 +379,13 @@ The environment variable CXX names another compiler than g++."))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
                              (:file "manipulation")))
+               (:module "statistics"
+                :serial t
+                :components ((:file "normal") (:file "distributions") (:file "least-squares")
+                             (:file "paper-rule") (:file "guaranteed-rules")))
                (:module "discrepancy"
                 :serial t
-                :components ((:file "random") (:file "quantile") (:file "least-squares")
-                             (:file "confidence") (:file "abstraction") (:file "search")
+                :components ((:file "random") (:file "abstraction") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
                (:file "interface") (:file "theory-commands") (:file "readme")
