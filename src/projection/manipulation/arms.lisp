@@ -132,10 +132,13 @@ the last one, BLOCKERS the other links of the robot that it could touch; TORSO i
                              unless (< (abs (- height now)) 1d-3) collect height)
                        #'< :key (lambda (height) (abs (- height now)))))))))
 
-(defun with-torso (projection arm height)
-  "Return a copy of the present positions, with the torso at HEIGHT unless that is NIL."
+(defun reaching-positions (projection arm &optional height)
+  "Return a copy of the present positions, with the torso at HEIGHT unless that is NIL, and with the
+gripper of ARM open if it holds nothing."
   (let ((positions (copy-seq (joint-positions (projection-robot projection)))))
     (when height (setf (aref positions (arm-torso arm)) height))
+    (unless (held-item projection (arm-name arm))
+      (setf (aref positions (arm-gripper arm)) (nth-value 1 (gripper-limits projection arm))))
     positions))
 
 (defun nearest-turns (robot joints solution start)

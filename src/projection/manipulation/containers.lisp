@@ -70,7 +70,7 @@ the link HANDLE of the model."
 
 (defun designated-container (projection designator)
   "Return the container that the action DESIGNATOR is about."
-  (let ((object (plan:desig-prop-value designator :object)))
+  (let ((object (designated-object designator)))
     (or (first (find-containers projection object))
         (misunderstood designator "the scene has no such container"))))
 

@@ -42,7 +42,9 @@ DESIGNATOR."
 near as possible to the present ones.  Signals MANIPULATION-POSE-UNREACHABLE."
   (dolist (height (or (torso-heights projection (car (first goals))) '(nil))
                   (fail-to-reach :unreachable (mapcar #'car goals) "the pose"))
-    (let ((positions (with-torso projection (car (first goals)) height)))
+    (let* ((arm (car (first goals)))
+           (positions (copy-seq (joint-positions (projection-robot projection)))))
+      (when height (setf (aref positions (arm-torso arm)) height))
       (when (loop for (arm . pose) in goals
                   for next = (first (solve projection arm pose positions :restarts 8))
                   always next do (setf positions next))

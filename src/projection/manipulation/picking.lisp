@@ -32,12 +32,19 @@
   (let ((pose (urdf-link-inertial-pose (item-link projection item))))
     (if pose (pose-position pose) '(0d0 0d0 0d0))))
 
+(defun expected-parameter (projection name)
+  "Return the value of the parameter NAME as far as the robot knows: in the middle of its tolerance."
+  (let ((tolerance (assoc name (scene-tolerances (projection-scene projection)))))
+    (if tolerance
+        (/ (+ (second tolerance) (third tolerance)) 2)
+        (projection-parameter projection name))))
+
 (defun grip-need (projection item pose tool)
   "Return which part of what the fingers can bear they need to hold ITEM, at POSE, still with the
 tool at the pose TOOL; 1 is all."
   (let* ((weight (* *gravity* (urdf-link-mass (item-link projection item))))
-         (capacity (* 2 (projection-parameter projection :finger-friction)
-                      (projection-parameter projection :grip-force)))
+         (capacity (* 2 (expected-parameter projection :finger-friction)
+                      (expected-parameter projection :grip-force)))
          (closing (turned tool '(0d0 1d0 0d0)))
          (lever (mapcar #'- (mapcar #'+ (pose-position pose)
                                     (turned pose (mass-centre projection item)))
@@ -70,8 +77,7 @@ first.  SIDES is a list of the sides that are allowed, or NIL for all."
          (rated (loop for grasp in (fitting-grasps (hand-of projection arm) shape)
                       for tool = (compose pose (grasp-tool grasp))
                       when (and (wanted-grasp-p grasp sides)
-                                (< (third (turned tool '(1d0 0d0 0d0))) 0.3d0)
-                                (< (grip-need projection item pose tool) 1))
+                                (< (third (turned tool '(1d0 0d0 0d0))) 0.3d0))
                         collect (cons (grasp-cost projection arm item pose tool)
                                       (list grasp tool (advanced tool (- (grasp-depth grasp)))
                                             (moved tool (list 0d0 0d0 lift)))))))
@@ -135,10 +141,17 @@ sides and of lists (side x y z), with a point of the item; NIL for anywhere."
                :description (format nil "the ~(~a~) has slipped out of the ~(~a~) hand" item
                                     (arm-name arm)))))
 
+(defun designated-object (designator)
+  "Return what is known best of the :object of DESIGNATOR, an object designator."
+  (let ((object (plan:desig-prop-value designator :object)))
+    (unless (typep object 'plan:object-designator)
+      (misunderstood designator "it needs an object"))
+    (plan:current-desig object)))
+
 (defun pick-up (projection designator)
   "Pick up the object of DESIGNATOR, an action; return the item's name."
   (forget-lost-grasps projection)
-  (let* ((object (plan:desig-prop-value designator :object))
+  (let* ((object (designated-object designator))
          (item (designated-item projection object))
          (pose (believed-pose projection object item))
          (names (mapcar #'arm-name (designated-arms projection designator :arm)))

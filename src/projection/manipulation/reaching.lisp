@@ -51,8 +51,7 @@ list of poses on the way, by a configuration near START; or NIL and why not, :UN
                        (free-p projection arm before :ignored ignored)
                        (free-p projection arm (first (last leaving))
                                :ignored (append target ignored)))
-              (let ((way (plan-way projection arm
-                                   (joint-positions (projection-robot projection)) before
+              (let ((way (plan-way projection arm (reaching-positions projection arm) before
                                    :ignored ignored)))
                 (when way
                   (return (values (make-reach :arm arm :goal goal :tool tool :way way
@@ -66,7 +65,7 @@ tool there, before and afterwards; or NIL and why there is none, :UNREACHABLE or
 bodies IGNORED may be touched all the time, those of TARGET from the straight line on."
   (let ((reason :unreachable))
     (dolist (height (or (torso-heights projection arm) '(nil)) (values nil reason))
-      (let ((start (with-torso projection arm height)))
+      (let ((start (reaching-positions projection arm height)))
         (loop for (goal tool begin end) in candidates
               do (when (within-length-p projection arm start tool)
                    (multiple-value-bind (reach why)
@@ -85,13 +84,20 @@ bodies IGNORED may be touched all the time, those of TARGET from the straight li
         (plan:fail 'plan:manipulation-pose-unreachable
                    :description (format nil "~a cannot reach ~a" names what)))))
 
-(defun follow (projection arm way &key (watch :all) ignore speed)
+(defun with-present-grippers (projection way)
+  "Return WAY with the grippers as they are now."
+  (let ((present (joint-positions (projection-robot projection))))
+    (loop for positions in way
+          collect (let ((positions (copy-seq positions)))
+                    (dolist (arm (robot-arms (projection-robot projection)) positions)
+                      (setf (aref positions (arm-gripper arm))
+                            (aref present (arm-gripper arm))))))))
+
+(defun follow (projection arm way &key (watch :all) ignore)
   "Move ARM along WAY.  Signals MANIPULATION-GOAL-NOT-REACHED where something is touched."
   (when way
     (multiple-value-bind (reason bodies)
-        (if speed
-            (run-path projection way :watch watch :ignore ignore :speed speed)
-            (run-path projection way :watch watch :ignore ignore))
+        (run-path projection (with-present-grippers projection way) :watch watch :ignore ignore)
       (when reason
         (plan:fail 'plan:manipulation-goal-not-reached
                    :description (format nil "the ~(~a~) arm stopped where ~{~a touches ~a~}"
