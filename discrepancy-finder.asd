@@ -378,7 +378,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "rays") (:file "mechanisms")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
-                             (:file "manipulation")))
+                             (:file "manipulation") (:file "manipulation-kitchen")))
                (:module "statistics"
                 :serial t
                 :components ((:file "normal") (:file "distributions") (:file "least-squares")
