@@ -274,12 +274,15 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "clauses") (:file "parameters") (:file "scene")
                              (:file "materials") (:file "robots") (:file "reading")))
                (:module "worlds" :serial t
-                :components ((:file "robot") (:file "projection") (:file "building")
-                             (:file "observations") (:file "performing")))
+                :components ((:file "outlines") (:file "blueprints") (:file "robot")
+                             (:file "projection") (:file "building") (:file "observations")
+                             (:file "performing")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "runner") (:file "head")))
+                :components ((:file "profiles") (:file "runner") (:file "head")
+                             (:file "torso")))
                (:module "navigation" :serial t
-                :components ((:file "going")))
+                :components ((:file "terrain") (:file "footing") (:file "base-paths")
+                             (:file "surroundings") (:file "base-motion") (:file "going")))
                (:module "perception" :serial t
                 :components ((:file "surface") (:file "detecting")))
                (:module "manipulation" :serial t

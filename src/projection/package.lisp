@@ -28,5 +28,5 @@
    ;; conditions
    #:projection-error #:scene-error #:scene-error-file #:scene-error-line #:scene-error-reason
    #:urdf-error #:urdf-error-file #:urdf-error-line #:urdf-error-reason
-   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint
+   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint #:impossible-joint-position
    #:missing-robot-part))
