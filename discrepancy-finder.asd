@@ -264,12 +264,14 @@ The environment variable CXX names another compiler than g++."))
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
   :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "alexandria"
-               "xmls")
+               "cffi")
   :pathname "src/projection/"
   :serial t
   :components ((:file "package") (:file "conditions")
                (:module "models" :serial t
-                :components ((:file "urdf")))
+                :components ((:file "xml") (:file "xml-reader") (:file "numbers") (:file "inertia") (:file "packages")
+                             (:file "meshes") (:file "links") (:file "joints") (:file "urdf")
+                             (:file "groups")))
                (:module "scenes" :serial t
                 :components ((:file "clauses") (:file "parameters") (:file "scene")
                              (:file "materials") (:file "robots") (:file "reading")))
