@@ -265,22 +265,27 @@ The environment variable CXX names another compiler than g++."))
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
   :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "alexandria"
-               "xmls")
+               "cffi")
   :pathname "src/projection/"
   :serial t
   :components ((:file "package") (:file "conditions")
                (:module "models" :serial t
-                :components ((:file "urdf")))
+                :components ((:file "xml") (:file "xml-reader") (:file "numbers") (:file "inertia") (:file "packages")
+                             (:file "meshes") (:file "links") (:file "joints") (:file "urdf")
+                             (:file "groups")))
                (:module "scenes" :serial t
                 :components ((:file "clauses") (:file "parameters") (:file "scene")
                              (:file "materials") (:file "robots") (:file "reading")))
                (:module "worlds" :serial t
-                :components ((:file "robot") (:file "projection") (:file "building")
-                             (:file "observations") (:file "performing")))
+                :components ((:file "outlines") (:file "blueprints") (:file "robot")
+                             (:file "projection") (:file "building") (:file "observations")
+                             (:file "performing")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "runner") (:file "head")))
+                :components ((:file "profiles") (:file "runner") (:file "head")
+                             (:file "torso")))
                (:module "navigation" :serial t
-                :components ((:file "going")))
+                :components ((:file "terrain") (:file "footing") (:file "base-paths")
+                             (:file "surroundings") (:file "base-motion") (:file "going")))
                (:module "perception" :serial t
                 :components ((:file "surface") (:file "detecting")))
                (:module "manipulation" :serial t
@@ -388,6 +393,9 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "random") (:file "abstraction") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
+               (:module "kitchen" :pathname "projection/" :serial t
+                :components ((:file "kitchen") (:file "kitchen-effects")
+                             (:file "kitchen-fidelity")))
                (:file "interface") (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
