@@ -138,9 +138,6 @@ which that moves.")
 (defparameter *slip-distance* 0.02d0
   "A hand has slipped off a handle that lags behind it by more than this (m or rad).")
 
-(defconstant +steps-a-command+ 8
-  "The speed of a joint's motor is set anew after so many steps.")
-
 (defun haul (projection arm container way distance)
   "Move ARM along WAY, whose configurations are equally far apart, while the joint of CONTAINER
 follows over DISTANCE.  Return NIL, or why it was not done, a string."
@@ -149,62 +146,32 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
          (force (* 2 (projection-parameter projection :finger-friction)
                    (projection-parameter projection :grip-force)))
          (before (bullet:joint-position joint))
-         (knots (coerce (cons (copy-seq (joint-positions robot)) way) 'vector))
-         (pieces (length way))
-         (fractions (profile-fractions (make-profile (abs distance) *container-speed*
-                                                     *container-acceleration*)))
-         (steps (length fractions))
-         (body (container-body projection container))
-         (watched (arm-bodies projection (remove-if (lambda (link)
-                                                      (member link (arm-hand-links arm)))
-                                                    (cddr (arm-links arm)))))
-         (obstacles (remove body (arm-obstacles projection arm))))
-    (bullet:wake body)
-    (unwind-protect
-         (loop with done = 0
-               while (< done steps)
-               do (let* ((piece (min (1- pieces) (floor (* pieces (aref fractions done)))))
-                         (end (or (position-if (lambda (fraction)
-                                                 (> (* pieces fraction) (1+ piece)))
-                                               fractions :start (1+ done))
-                                  steps))
-                         (count (min +steps-a-command+ (- end done)))
-                         (local (make-array count :element-type 'double-float)))
-                    (loop for index below count
-                          do (setf (aref local index)
-                                   (min 1d0 (max 0d0 (- (* pieces (aref fractions (+ done index)))
-                                                        piece)))))
-                    (bullet:set-motor joint
-                                      (/ (- (+ before (* distance (aref fractions
-                                                                         (+ done count -1))))
-                                            (bullet:joint-position joint))
-                                         (* count +time-step+))
-                                      force)
-                    (multiple-value-bind (run reason bodies)
-                        (bullet:run-motion (robot-mechanism robot)
-                                           :steps count :fractions local
-                                           :start (aref knots piece)
-                                           :goal (aref knots (1+ piece))
-                                           :fidelity (projection-fidelity projection)
-                                           :watched watched :obstacles obstacles
-                                           :loose (loose-bodies projection))
-                      (note-motion projection (aref knots piece) (aref knots (1+ piece))
-                                   (if (plusp run) (aref local (1- run)) 0d0))
-                      (when (eq reason :contact)
-                        (return (format nil "~{~a touches ~a~}"
-                                        (mapcar #'bullet:body-name bodies)))))
-                    (incf done count)
-                    (let ((lag (- (+ before (* distance (aref fractions (1- done))))
-                                  (bullet:joint-position joint))))
-                      (when (> (abs lag) *slip-distance*)
-                        (return (format nil "the hand has slipped off the handle"))))))
-      (bullet:set-motor joint 0d0 (or (urdf-joint-friction (container-urdf-joint container))
-                                      0d0)))))
-
-(defun note-motion (projection start goal fraction)
-  "Set the positions of PROJECTION's robot to those at FRACTION of the way from START to GOAL."
-  (let ((positions (joint-positions (projection-robot projection))))
-    (map-into positions (lambda (from to) (interpolate from to fraction)) start goal)))
+         (knots (coerce (cons (copy-seq (joint-positions robot))
+                              (with-present-grippers projection way))
+                        'vector))
+         (body (container-body projection container)))
+    (flet ((follow-hand (last count)
+             (bullet:set-motor joint
+                               (/ (- (+ before (* distance last)) (bullet:joint-position joint))
+                                  (* count +time-step+))
+                               force)
+             (bullet:wake body))
+           (slipped (last)
+             (let ((lag (- (+ before (* distance last)) (bullet:joint-position joint))))
+               (and (> (abs lag) *slip-distance*)
+                    "the hand has slipped off the handle"))))
+      (unwind-protect
+           (multiple-value-bind (problem bodies)
+               (run-curve projection
+                          (curve-function knots (loop repeat (length way) collect 1))
+                          (profile-fractions (make-profile (abs distance) *container-speed*
+                                                           *container-acceleration*))
+                          :before #'follow-hand :after #'slipped
+                          :watched (watched-bodies projection :allow-hand)
+                          :obstacles (remove body (solid-bodies projection)))
+             (if (eq problem :contact) (contact-text bodies) problem))
+        (bullet:set-motor joint 0d0 (or (urdf-joint-friction (container-urdf-joint container))
+                                        0d0))))))
 
 (defun wanted-distance (designator container sign)
   "Return by how much (m or rad) the joint of CONTAINER is to move: positive to open."
@@ -245,7 +212,7 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
          (before (bullet:joint-position joint)))
     (move-gripper projection arm (nth-value 1 (gripper-limits projection arm)))
     (follow projection arm (reach-way reach))
-    (follow projection arm (reach-line reach) :watch :allow-hand)
+    (follow projection arm (reach-line reach) :watch :allow-hand :smoothly t)
     (grip projection arm)
     (let ((problem (haul projection arm container (reach-leaving reach) distance)))
       (open-gripper projection arm)

@@ -167,7 +167,7 @@ sides and of lists (side x y z), with a point of the item; NIL for anywhere."
            (arm (reach-arm reach)))
       (move-gripper projection arm (nth-value 1 (gripper-limits projection arm)))
       (follow projection arm (reach-way reach))
-      (follow projection arm (reach-line reach) :ignore (list body))
+      (follow projection arm (reach-line reach) :ignore (list body) :smoothly t)
       (let ((gripped (grip projection arm)))
         (unless (eq gripped item)
           (open-gripper projection arm)
@@ -176,7 +176,7 @@ sides and of lists (side x y z), with a point of the item; NIL for anywhere."
                      :description (format nil "the ~(~a~) is not between the fingers of the ~(~a~) ~
                                                arm" item (arm-name arm)))))
       (note-relation projection arm (compose (inverse pose) (reach-tool reach)))
-      (follow projection arm (reach-leaving reach) :watch :allow-hand)
+      (follow projection arm (reach-leaving reach) :watch :allow-hand :smoothly t)
       (check-lifted projection arm item)
       item)))
 

@@ -54,7 +54,7 @@ tool, before, before)."
          (way (loop for distance in '(0.12d0 0.08d0 0.04d0)
                       thereis (straight-way projection arm start tool
                                             (advanced tool (- distance))))))
-    (follow projection arm way :watch :allow-hand)))
+    (follow projection arm way :watch :allow-hand :smoothly t)))
 
 (defun place (projection designator)
   "Place what the robot holds as DESIGNATOR, an action, says; return the item's name."
@@ -70,7 +70,7 @@ tool, before, before)."
           (fail-to-reach reason (list arm) "the target"))
         (follow projection arm (reach-way reach))
         (check-lifted projection arm item)
-        (follow projection arm (reach-line reach) :watch :allow-hand)
+        (follow projection arm (reach-line reach) :watch :allow-hand :smoothly t)
         (check-lifted projection arm item)
         (open-gripper projection arm)
         (settle projection)

@@ -93,12 +93,14 @@ bodies IGNORED may be touched all the time, those of TARGET from the straight li
                       (setf (aref positions (arm-gripper arm))
                             (aref present (arm-gripper arm))))))))
 
-(defun follow (projection arm way &key (watch :all) ignore)
-  "Move ARM along WAY.  Signals MANIPULATION-GOAL-NOT-REACHED where something is touched."
+(defun follow (projection arm way &key (watch :all) ignore smoothly)
+  "Move ARM along WAY, without stopping at its configurations if SMOOTHLY is true.  Signals
+MANIPULATION-GOAL-NOT-REACHED where something is touched."
   (when way
     (multiple-value-bind (reason bodies)
-        (run-path projection (with-present-grippers projection way) :watch watch :ignore ignore)
+        (funcall (if smoothly #'run-smoothly #'run-path)
+                 projection (with-present-grippers projection way) :watch watch :ignore ignore)
       (when reason
         (plan:fail 'plan:manipulation-goal-not-reached
-                   :description (format nil "the ~(~a~) arm stopped where ~{~a touches ~a~}"
-                                        (arm-name arm) (mapcar #'bullet:body-name bodies)))))))
+                   :description (format nil "the ~(~a~) arm stopped where ~a" (arm-name arm)
+                                        (contact-text bodies)))))))
