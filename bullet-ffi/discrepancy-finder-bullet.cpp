@@ -17,6 +17,8 @@
 #include "kinematics.inc"
 #include "courses.inc"
 #include "watches.inc"
+#include "held-bodies.inc"
+#include "surveys.inc"
 #include "motion-runs.inc"
 
 namespace {

@@ -177,6 +177,8 @@ DFB_API int dfb_mechanism_new(dfb_world *world, int count, const int *integers,
  * with them what is attached to them. */
 DFB_API int dfb_mechanism_pose(dfb_world *world, int mechanism, const double *base,
                                const double *positions, int teleport);
+/* Write where the base, a pose, and the joints, one position each, were moved to last. */
+DFB_API int dfb_mechanism_read(dfb_world *world, int mechanism, double *base, double *positions);
 /* Write the pose of a link as of the last time that the mechanism was moved. */
 DFB_API int dfb_link_pose(dfb_world *world, int mechanism, int link, double *pose);
 /* Write the pose that a link would have. */
@@ -192,6 +194,22 @@ DFB_API int dfb_inverse_kinematics(dfb_world *world, int mechanism, int link, co
                                    const int *joints, const double *start, int position_only,
                                    int attempts, int first_attempt, double tolerance, int most,
                                    double *solutions, double *error);
+
+/* Motions of a mechanism */
+/* Begin a motion that takes the joints straight from start to goal (joints that are not at start
+ * are put there first, at rest; NULL for where they are, and goal NULL for start) and, with base_moves 1, the base along bases.  Without fast each
+ * step steps the world; with fast 1 steps that can affect nothing but held bodies are skipped.  A
+ * step in which a watched body, of a link or attached to one, would come to an obstacle as near as
+ * contact_distance (m, not negative) ends the motion before it. */
+DFB_API int dfb_motion_begin(dfb_world *world, int mechanism, const double *start,
+                             const double *goal, int base_moves, int fast,
+                             double contact_distance, int watched_count, const int *watched,
+                             int obstacle_count, const int *obstacles);
+/* Do up to count steps more of the motion begun last: bases has a pose, fractions the part of the
+ * way of the joints after each step; either may be NULL for what does not change.  Return how many
+ * were done before a contact; write the two bodies of the contact, or -1. */
+DFB_API int dfb_motion_continue(dfb_world *world, int mechanism, int count, const double *bases,
+                                const double *fractions, int *bodies);
 #ifdef __cplusplus
 }
 #endif
