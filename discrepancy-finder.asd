@@ -105,8 +105,9 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
-               (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")
-               (:file "rays") (:file "mechanisms") (:file "inverse-kinematics")))
+               (:file "shapes") (:file "bodies") (:file "attachments") (:file "joints")
+               (:file "queries") (:file "contacts") (:file "rays") (:file "mechanisms")
+               (:file "inverse-kinematics") (:file "motion-runs")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -374,7 +375,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
-                             (:file "rays") (:file "mechanisms")))
+                             (:file "rays") (:file "mechanisms") (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")))
                (:module "statistics"
