@@ -105,8 +105,9 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
-               (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")
-               (:file "rays")))
+               (:file "shapes") (:file "hulls") (:file "inertia") (:file "bodies")
+               (:file "attachments") (:file "joints")
+               (:file "queries") (:file "contacts") (:file "rays")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."

@@ -18,16 +18,20 @@ order give equal bits, in any thread or process, and queries change no later bit
    #:body-pose #:body-velocity #:move-body #:place-body
    #:wake #:allow-sleep #:asleep-p #:ignore-collision
    ;; shapes
-   #:convex-hull #:shape-volume #:shape-inertia
+   #:convex-hull #:shape-volume #:mass-properties #:principal-axes
    ;; attachments
    #:attachment #:attach #:detach #:attachments #:attachment-parent #:attachment-child
-   #:attachment-live-p #:attachment-load
+   #:attachment-live-p #:attachment-load #:attachment-lost-p #:attachment-utilization
    ;; states of whole worlds
    #:make-state-vector #:read-state #:state-hash #:at-rest-p
    ;; queries
    #:penetration #:deepest-penetration
    ;; joints
+   #:joint #:add-joint #:remove-joint #:joint-world #:joint-name #:joint-type #:joint-parent
+   #:joint-child #:joint-lower #:joint-upper #:joint-live-p #:world-joints #:find-joint
+   #:joint-position #:set-joint-position #:set-motor #:joint-load
    ;; contacts and sweeps
+   #:pair-distance
    ;; checkpoints
    ;; mechanisms
    ;; rays
