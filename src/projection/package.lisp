@@ -13,7 +13,8 @@
    #:scene-knows-p
    #:scene-robot-name
    ;; URDF
-   #:read-urdf #:urdf-model #:urdf-model-name #:urdf-link #:urdf-joint
+   #:read-urdf #:urdf-model #:urdf-model-name #:urdf-model-root #:urdf-model-links
+   #:urdf-model-joints #:urdf-link #:urdf-joint
    ;; projections
    #:projection #:make-projection #:close-projection #:with-projection #:projection-world
    #:projection-scene #:observed-pose #:held-item #:settle #:interpenetration #:state-hash
