@@ -279,7 +279,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "navigation" :serial t
                 :components ((:file "going")))
                (:module "perception" :serial t
-                :components ((:file "surface") (:file "detecting")))
+                :components ((:file "hulls") (:file "surface") (:file "seeing")
+                             (:file "detecting")))
                (:module "manipulation" :serial t
                 :components ((:file "column-arm")))))
 
