@@ -273,9 +273,10 @@ The environment variable CXX names another compiler than g++."))
                (:module "scenes" :serial t
                 :components ((:file "scene")))
                (:module "worlds" :serial t
-                :components ((:file "robot") (:file "projection")))
+                :components ((:file "robot") (:file "projection") (:file "building")
+                             (:file "observations") (:file "performing")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "head")))
+                :components ((:file "profiles") (:file "runner") (:file "head")))
                (:module "navigation" :serial t
                 :components ((:file "going")))
                (:module "perception" :serial t

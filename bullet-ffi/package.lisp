@@ -25,6 +25,7 @@ order give equal bits, in any thread or process, and queries change no later bit
    ;; queries
    #:penetration #:deepest-penetration
    ;; joints
+   #:joint-position
    ;; contacts and sweeps
    ;; checkpoints
    ;; mechanisms

@@ -78,3 +78,11 @@ beyond the limit of what it means."))
                          (:head "(:head pan-joint tilt-joint)")
                          (:camera "(:camera link)"))))))
   (:documentation "Signaled when a robot is to do what it has no part for."))
+
+(define-condition unknown-joint (projection-error)
+  ((name :initarg :name :reader unknown-joint-name :documentation "The name in question.")
+   (scene :initarg :scene :reader unknown-joint-scene :documentation "The scene."))
+  (:report (lambda (condition stream)
+             (format stream "The scene ~(~a~) has no movable joint ~a."
+                     (unknown-joint-scene condition) (unknown-joint-name condition))))
+  (:documentation "Signaled when a joint is named that neither the robot nor a fixture has."))

@@ -17,10 +17,13 @@
    #:projection #:make-projection #:close-projection #:with-projection #:projection-world
    #:projection-scene #:observed-pose #:held-item #:settle #:interpenetration #:state-hash
    #:simulated-seconds #:visible-part
+   #:projection-robot #:projection-fixtures #:projection-items #:projection-joints
+   #:projection-grasps #:projection-fidelity #:projection-parameter
+   #:observed-joint #:held-items #:item-at-rest-p
    ;; pictures
    ;; manipulation
    ;; process modules
    #:execute-designator #:executes-p #:drive-base #:move-arm #:move-head
    ;; conditions
    #:projection-error #:scene-error #:scene-error-file #:scene-error-reason #:urdf-error
-   #:unknown-parameter #:impossible-parameter #:unknown-body #:missing-robot-part))
+   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint #:missing-robot-part))

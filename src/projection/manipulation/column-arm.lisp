@@ -7,6 +7,30 @@
 
 (in-package #:discrepancy-finder.projection)
 
+;;; Inverse kinematics of the arm
+
+(defun shoulder-distance (robot pose)
+  "Return the horizontal distance (m) from ROBOT's shoulder to the position of POSE."
+  (planar-distance (svref (update-poses robot) (frame-number robot :shoulder)) pose))
+
+(defun within-limits-p (joint position)
+  (and (<= (or (urdf-joint-lower joint) position) position)
+       (<= position (or (urdf-joint-upper joint) position))))
+
+(defun arm-configuration (robot target)
+  "Return lift, shoulder and extension that bring the tip of ROBOT's gripper to the position of
+TARGET, as a list, or NIL if a joint limit forbids it."
+  (let* ((local (compose (inverse (base-pose robot)) target))
+         (tip (compose (inverse (base-pose robot)) (gripper-pose robot)))
+         (configuration (list (+ (joint-position robot :lift) (- (pose-z local) (pose-z tip)))
+                              (atan (pose-y local) (pose-x local))
+                              (sqrt (+ (expt (pose-x local) 2) (expt (pose-y local) 2))))))
+    (and (every (lambda (role position) (within-limits-p (find-joint robot role) position))
+                '(:lift :shoulder :extension) configuration)
+         configuration)))
+
+;;; The gripper
+
 (defparameter *grasp-gap* 1d-3
   "The distance (m) between the gripper's tip and the top of an item that is grasped.")
 
@@ -93,15 +117,14 @@ there, and take the arm back."
          (body (cdr (assoc name (projection-items projection))))
          (pose (bullet:body-pose body))
          (what (format nil "the ~(~a~)" name)))
-    (when (projection-grasp projection)
+    (when (held-item projection)
       (plan:fail 'plan:gripper-goal-not-reached
                  :description (format nil "the gripper holds the ~(~a~)" (held-item projection))))
     (check-reach projection pose what)
     (visit projection pose (+ (upper-extent (bullet:body-shape body) pose) *grasp-gap*) what
            (lambda ()
-             (setf (projection-grasp projection)
-                   (cons name (bullet:attach (gripper-body (projection-robot projection))
-                                             body)))))
+             (note-grasp projection :arm name
+                         (bullet:attach (gripper-body (projection-robot projection)) body))))
     name))
 
 (defmethod execute-designator ((projection projection) (class (eql :action))
@@ -120,7 +143,6 @@ there, and take the arm back."
               *release-gap*)
            "the target"
            (lambda ()
-             (bullet:detach (cdr (projection-grasp projection)))
-             (setf (projection-grasp projection) nil)
+             (release-grasp projection :arm)
              (settle projection)))
     name))

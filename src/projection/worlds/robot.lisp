@@ -1,39 +1,43 @@
 ;;;; The robot: a planar base with a tree of links, posed by forward kinematics.
 ;;;;
-;;;; A ROBOT holds the pose of its base and the positions of its joints.  Its links are kinematic
-;;;; bodies; UPDATE-LINKS moves them to where forward kinematics puts them.
-;;;; The arm is a carriage that lifts a shoulder that turns a telescopic arm, so that inverse
-;;;; kinematics is in closed form: ARM-CONFIGURATION.
+;;;; A ROBOT holds the pose of its base and the positions of its joints, one for each link.  Its
+;;;; links have numbers, parents first: FRAME-NUMBER finds them by the name of the link or of the
+;;;; joint that moves it, or by a role that the scene gives.  Fixtures and items are built by the same
+;;;; means; they just stay where they are put.
 
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (link-frame (:copier nil))
-  "A link of a robot: JOINT connects it to the link with the number PARENT (both NIL for the root),
-BODY is its body in the world, NIL if it has no shape."
+  "A link of a robot: JOINT connects it to the link with the number PARENT (both NIL for the root).
+NAME is the name of its body."
   (link nil :type urdf-link :read-only t)
   (joint nil :type (or null urdf-joint) :read-only t)
   (parent nil :type (or null fixnum) :read-only t)
-  (body nil))
+  (name "" :type string :read-only t))
 
 (defclass robot ()
   ((part :initarg :part :reader robot-part :type scene-part)
-   (base-pose :initarg :base-pose :accessor base-pose :type pose)
+   (base-pose :initarg :base-pose :accessor base-pose :type pose
+              :documentation "The pose of the root link.")
    (frames :reader robot-frames :type simple-vector
            :documentation "The link frames, parents first.")
-   (positions :reader joint-positions :type (simple-array double-float (*))
+   (positions :accessor joint-positions :type (simple-array double-float (*))
               :documentation "For each frame the position (m or rad) of its joint.")
+   (bodies :reader robot-bodies :type simple-vector
+           :documentation "For each frame its body in the world, or NIL.")
    (poses :reader link-poses :type simple-vector
           :documentation "For each frame its pose in the world, by the last UPDATE-POSES."))
   (:documentation "The robot of a projection."))
 
-(defun make-frames (model)
-  (let ((frames '()) (names '()))
+(defun make-frames (part)
+  (let ((model (scene-part-model part)) (frames '()) (names '()))
     (flet ((add (name joint)
              (push (make-link-frame :link (find name (urdf-model-links model)
                                                 :key #'urdf-link-name :test #'string=)
                                     :joint joint
                                     :parent (and joint (position (urdf-joint-parent joint)
-                                                                 (reverse names) :test #'string=)))
+                                                                 (reverse names) :test #'string=))
+                                    :name (format nil "~(~a~)/~a" (scene-part-name part) name))
                    frames)
              (push name names)))
       (add (urdf-model-root model) nil)
@@ -48,11 +52,12 @@ BODY is its body in the world, NIL if it has no shape."
       0d0))
 
 (defmethod initialize-instance :after ((robot robot) &key)
-  (with-slots (frames positions poses) robot
-    (setf frames (make-frames (scene-part-model (robot-part robot)))
+  (with-slots (frames positions poses bodies) robot
+    (setf frames (make-frames (robot-part robot))
           positions (map '(simple-array double-float (*))
                          (lambda (frame) (initial-position (link-frame-joint frame)))
                          frames)
+          bodies (make-array (length frames) :initial-element nil)
           poses (make-array (length frames)))
     (update-poses robot)))
 
@@ -88,22 +93,48 @@ BODY is its body in the world, NIL if it has no shape."
                        (base-pose robot))))
     poses))
 
-(defun frame-number (robot role)
-  "Return the number of the frame whose link, or whose joint, has ROLE in ROBOT."
-  (let ((name (getf (scene-part-roles (robot-part robot)) role)))
-    (position-if (lambda (frame)
-                   (or (string= name (urdf-link-name (link-frame-link frame)))
-                       (and (link-frame-joint frame)
-                            (string= name (urdf-joint-name (link-frame-joint frame))))))
-                 (robot-frames robot))))
+(defun named-frame-number (robot name)
+  "Return the number of the frame of ROBOT whose link, or else whose joint, has the NAME, a string,
+or NIL."
+  (or (position name (robot-frames robot) :test #'string=
+                                          :key (lambda (frame)
+                                                 (urdf-link-name (link-frame-link frame))))
+      (position-if (lambda (frame)
+                     (and (link-frame-joint frame)
+                          (string= name (urdf-joint-name (link-frame-joint frame)))))
+                   (robot-frames robot))))
 
-(defun find-joint (robot role)
-  "Return the joint that has ROLE (:lift, :shoulder, :extension, :pan or :tilt) in ROBOT."
-  (link-frame-joint (svref (robot-frames robot) (frame-number robot role))))
+(defun role-name (robot role)
+  "Return the name of the joint or link that has ROLE, a keyword, in ROBOT, or NIL."
+  (getf (scene-part-roles (robot-part robot)) role))
 
-(defun joint-position (robot role)
-  "Return the position (m or rad) of the joint with ROLE in ROBOT."
-  (aref (joint-positions robot) (frame-number robot role)))
+(defun frame-number (robot role-or-name)
+  "Return the number of the frame whose link, or whose joint, is ROLE-OR-NAME in ROBOT: a role (a
+keyword such as :LIFT, :TORSO, :PAN or :CAMERA) or the name of a link or joint (a string).  NIL if
+there is none."
+  (let ((name (if (stringp role-or-name) role-or-name (role-name robot role-or-name))))
+    (and name (named-frame-number robot name))))
+
+(defun find-joint (robot role-or-name)
+  "Return the joint that FRAME-NUMBER finds for ROLE-OR-NAME in ROBOT."
+  (link-frame-joint (svref (robot-frames robot) (frame-number robot role-or-name))))
+
+(defun joint-position (robot role-or-name)
+  "Return the position (m or rad) of the joint that is ROLE-OR-NAME in ROBOT."
+  (aref (joint-positions robot) (frame-number robot role-or-name)))
+
+(defun robot-link-pose (robot role-or-name)
+  "Return the pose in the world of the link that FRAME-NUMBER finds in ROBOT."
+  (svref (update-poses robot) (frame-number robot role-or-name)))
+
+(defun robot-arm (robot name)
+  "Return the property list (:joints :tool :gripper :fingers :parked) of the arm NAME, :LEFT or
+:RIGHT, of ROBOT, or NIL."
+  (getf (role-name robot :arms) name))
+
+(defun robot-arm-names (robot)
+  "Return the names (keywords) of the arms of ROBOT that the scene names."
+  (loop for (name) on (role-name robot :arms) by #'cddr collect name))
 
 (defun gripper-pose (robot)
   "Return the pose of the tip of ROBOT's gripper."
@@ -119,53 +150,34 @@ BODY is its body in the world, NIL if it has no shape."
   "Add the links of ROBOT, or of another model, to WORLD as bodies of KIND, with their own masses if
 that is :DYNAMIC.  Return the bodies."
   (loop for frame across (robot-frames robot)
+        for index from 0
         for pose across (update-poses robot)
         for link = (link-frame-link frame)
         when (urdf-link-shape link)
-          collect (setf (link-frame-body frame)
-                        (bullet:add-body world
-                                         (format nil "~(~a~)/~a"
-                                                 (scene-part-name (robot-part robot))
-                                                 (urdf-link-name link))
+          collect (setf (svref (robot-bodies robot) index)
+                        (bullet:add-body world (link-frame-name frame)
                                          (urdf-link-shape link) pose
                                          :kind kind
-                                         :mass (if (eq kind :dynamic) (urdf-link-mass link) 0d0)))))
+                                         :mass (if (eq kind :dynamic)
+                                                   (urdf-link-mass link)
+                                                   0d0)))))
 
 (defun link-bodies (robot)
   "Return the bodies of ROBOT's links."
-  (loop for frame across (robot-frames robot)
-        when (link-frame-body frame) collect it))
+  (remove nil (coerce (robot-bodies robot) 'list)))
+
+(defun robot-link-body (robot role-or-name)
+  "Return the body of the link that FRAME-NUMBER finds in ROBOT, or NIL if it has none."
+  (let ((number (frame-number robot role-or-name)))
+    (and number (svref (robot-bodies robot) number))))
 
 (defun update-links (robot)
   "Move the bodies of ROBOT's links to their poses; Bullet derives their velocities."
   (let ((poses (update-poses robot)))
     (declare (simple-vector poses))
-    (loop for frame across (the simple-vector (robot-frames robot))
-          for index of-type fixnum from 0
-          for body = (link-frame-body frame)
-          when body do (bullet:move-body body (svref poses index)))))
+    (loop for body across (the simple-vector (robot-bodies robot))
+          for pose across poses
+          when body do (bullet:move-body body pose))))
 
 (defun gripper-body (robot)
-  (link-frame-body (svref (robot-frames robot) (frame-number robot :gripper))))
-
-;;; Inverse kinematics of the arm
-
-(defun shoulder-distance (robot pose)
-  "Return the horizontal distance (m) from ROBOT's shoulder to the position of POSE."
-  (planar-distance (svref (update-poses robot) (frame-number robot :shoulder)) pose))
-
-(defun within-limits-p (joint position)
-  (and (<= (or (urdf-joint-lower joint) position) position)
-       (<= position (or (urdf-joint-upper joint) position))))
-
-(defun arm-configuration (robot target)
-  "Return lift, shoulder and extension that bring the tip of ROBOT's gripper to the position of
-TARGET, as a list, or NIL if a joint limit forbids it."
-  (let* ((local (compose (inverse (base-pose robot)) target))
-         (tip (compose (inverse (base-pose robot)) (gripper-pose robot)))
-         (configuration (list (+ (joint-position robot :lift) (- (pose-z local) (pose-z tip)))
-                              (atan (pose-y local) (pose-x local))
-                              (sqrt (+ (expt (pose-x local) 2) (expt (pose-y local) 2))))))
-    (and (every (lambda (role position) (within-limits-p (find-joint robot role) position))
-                '(:lift :shoulder :extension) configuration)
-         configuration)))
+  (robot-link-body robot :gripper))
