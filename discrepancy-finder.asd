@@ -281,9 +281,13 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "going")))
                (:module "perception" :serial t
                 :components ((:file "hulls") (:file "surface") (:file "seeing")
-                             (:file "detecting")))
+                             (:file "places") (:file "detecting") (:file "looking")))
                (:module "manipulation" :serial t
-                :components ((:file "column-arm")))))
+                :components ((:file "column-arm")))
+               (:module "actions" :serial t
+                :components ((:file "places") (:file "base-poses") (:file "moving")
+                             (:file "searching") (:file "environment") (:file "fetching")
+                             (:file "transporting") (:file "groundings")))))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."

@@ -106,11 +106,6 @@ ENOUGH."
                                     (bullet:cast-rays world rays :passed passed))))
           finally (return seen))))
 
-(defun item-body (projection name)
-  "Return the body of the item NAME, a symbol, in PROJECTION.  Signals UNKNOWN-BODY."
-  (or (cdr (assoc (source:name-keyword name) (projection-items projection)))
-      (error 'unknown-body :name name :scene (scene-name (projection-scene projection)))))
-
 (defun visible-part (projection name &key (enough 1))
   "Return which part, 0 to 1, of the surface of the item NAME, a symbol, the camera of PROJECTION's
 robot sees; once it is at least ENOUGH the rest is not looked at.  Signals UNKNOWN-BODY, and
