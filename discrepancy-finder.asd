@@ -271,7 +271,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "models" :serial t
                 :components ((:file "urdf")))
                (:module "scenes" :serial t
-                :components ((:file "scene")))
+                :components ((:file "clauses") (:file "parameters") (:file "scene")
+                             (:file "materials") (:file "robots") (:file "reading")))
                (:module "worlds" :serial t
                 :components ((:file "robot") (:file "projection") (:file "building")
                              (:file "observations") (:file "performing")))

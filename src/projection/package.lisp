@@ -24,7 +24,7 @@
    ;; scenes
    #:load-scene #:scene #:scene-name #:scene-file #:scene-files #:scene-parameters #:scene-parameter
    #:scene-with-parameters #:normalized-parameters #:scene-body-pose #:check-movable
-   #:scene-item-names #:scene-item-type
+   #:scene-item-names #:scene-item-type #:scene-item-grasps #:scene-tolerances #:scene-knows-p
    #:scene-robot-name
    ;; URDF
    #:read-urdf #:urdf-model #:urdf-model-name #:urdf-link #:urdf-joint
@@ -40,5 +40,7 @@
    ;; process modules
    #:execute-designator #:executes-p #:drive-base #:move-arm #:move-head
    ;; conditions
-   #:projection-error #:scene-error #:scene-error-file #:scene-error-reason #:urdf-error
-   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint #:missing-robot-part))
+   #:projection-error #:scene-error #:scene-error-file #:scene-error-line #:scene-error-reason
+   #:urdf-error #:urdf-error-file #:urdf-error-line #:urdf-error-reason
+   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint
+   #:missing-robot-part))

@@ -250,5 +250,5 @@
                       ":shoulder" "not revolute")
     (scene-problem-of "(define-scene s (:parameters (reach 0)))" "positive")
     (scene-problem-of "(define-scene s (:parameters (reach 1) (reach 2)))" "same name")
-    (scene-problem-of "(define-scene s (:parameters (reach 1 . 2)))" "positive-number")
+    (scene-problem-of "(define-scene s (:parameters (reach 1 . 2)))" ":1: " "a dot")
     (scene-problem-of "(define-scene s #1=(:parameters . #1#))" "#=")))

@@ -13,10 +13,6 @@
   "Return the horizontal distance (m) from ROBOT's shoulder to the position of POSE."
   (planar-distance (svref (update-poses robot) (frame-number robot :shoulder)) pose))
 
-(defun within-limits-p (joint position)
-  (and (<= (or (urdf-joint-lower joint) position) position)
-       (<= position (or (urdf-joint-upper joint) position))))
-
 (defun arm-configuration (robot target)
   "Return lift, shoulder and extension that bring the tip of ROBOT's gripper to the position of
 TARGET, as a list, or NIL if a joint limit forbids it."

@@ -8,14 +8,22 @@
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (urdf-link (:copier nil))
-  "A link: its name, the shape of its collision elements (NIL if it has none), its mass (kg)."
+  "A link: its name, the SHAPE of its collision elements in the link's frame (NIL if it has none),
+its MASS (kg, 0 if not given), its INERTIA, three principal moments (kg m^2, NIL if not given) about
+the axes of the frame at INERTIAL-POSE, the VISUAL-COLOR (r g b a), each 0 to 1, or NIL."
   (name "" :type string :read-only t)
   (shape nil :type list :read-only t)
-  (mass 0d0 :type double-float :read-only t))
+  (mass 0d0 :type double-float :read-only t)
+  (inertia nil :type list :read-only t)
+  (inertial-pose nil :type (or null pose) :read-only t)
+  (visual-color nil :type list :read-only t)
+  (line nil :type (or null integer) :read-only t))
 
 (defstruct (urdf-joint (:copier nil))
   "A joint between the links PARENT and CHILD; TYPE is :fixed, :prismatic, :revolute or
-:continuous, LOWER and UPPER are in m or rad, NIL where unlimited."
+:continuous, LOWER and UPPER are in m or rad, NIL where unlimited.  EFFORT (N or N m) and VELOCITY
+are limits, too.  DAMPING is in N s/m or N m s/rad, FRICTION in N or N m.  A joint that follows
+another has a MIMIC (name multiplier offset)."
   (name "" :type string :read-only t)
   (type :fixed :type keyword :read-only t)
   (parent "" :type string :read-only t)
@@ -23,7 +31,13 @@
   (origin nil :type pose :read-only t)
   (axis '(1d0 0d0 0d0) :type list :read-only t)
   (lower nil :type (or null double-float) :read-only t)
-  (upper nil :type (or null double-float) :read-only t))
+  (upper nil :type (or null double-float) :read-only t)
+  (effort nil :type (or null double-float) :read-only t)
+  (velocity nil :type (or null double-float) :read-only t)
+  (damping 0d0 :type double-float :read-only t)
+  (friction 0d0 :type double-float :read-only t)
+  (mimic nil :type list :read-only t)
+  (line nil :type (or null integer) :read-only t))
 
 (defstruct (urdf-model (:copier nil))
   "A tree of links; JOINTS come after the joint of their parent link."
@@ -40,6 +54,31 @@
   (print-unreadable-object (model stream :type t)
     (format stream "~a: ~d link~:p, ~d joint~:p" (urdf-model-name model)
             (length (urdf-model-links model)) (length (urdf-model-joints model)))))
+
+(defun find-urdf-link (model name)
+  "Return the link of MODEL that has NAME, or NIL."
+  (find name (urdf-model-links model) :key #'urdf-link-name :test #'equal))
+
+(defun find-urdf-joint (model name)
+  "Return the joint of MODEL that has NAME, or NIL."
+  (find name (urdf-model-joints model) :key #'urdf-joint-name :test #'equal))
+
+(defun joint-above (model link-name)
+  "Return the joint of MODEL whose child is the link LINK-NAME, or NIL if that is the root."
+  (find link-name (urdf-model-joints model) :key #'urdf-joint-child :test #'equal))
+
+(defun joints-to (model link-name)
+  "Return the joints of MODEL on the way from the root to the link LINK-NAME, in this order."
+  (let ((way '()))
+    (loop for joint = (joint-above model link-name)
+          while joint
+          do (push joint way)
+             (setf link-name (urdf-joint-parent joint)))
+    way))
+
+(defun within-limits-p (joint position)
+  "Return true if POSITION (m or rad) is within the limits of JOINT."
+  (<= (or (urdf-joint-lower joint) position) position (or (urdf-joint-upper joint) position)))
 
 (define-condition urdf-fault (error)
   ((element :initarg :element :reader urdf-fault-element)

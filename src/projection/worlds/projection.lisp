@@ -25,7 +25,9 @@
    (grasps :initform '() :accessor projection-grasps
            :documentation "What the arms hold: a list of (arm item . attachment), oldest first.")
    (fidelity :initarg :fidelity :initform :fast :reader projection-fidelity
-             :documentation "How motions are stepped: :FAST or :FULL."))
+             :documentation "How motions are stepped: :FAST or :FULL.")
+   (observer :initform nil :accessor projection-observer
+             :documentation "A function that is called after each performed designator, or NIL."))
   (:documentation "A scene as a physical world, in which plans are performed."))
 
 (defmethod print-object ((projection projection) stream)

@@ -128,13 +128,12 @@ there is none."
   (svref (update-poses robot) (frame-number robot role-or-name)))
 
 (defun robot-arm (robot name)
-  "Return the property list (:joints :tool :gripper :fingers :parked) of the arm NAME, :LEFT or
-:RIGHT, of ROBOT, or NIL."
-  (getf (role-name robot :arms) name))
+  "Return the ARM-ROLES of the arm NAME, a symbol, of ROBOT, or NIL."
+  (part-arm (robot-part robot) name))
 
 (defun robot-arm-names (robot)
   "Return the names (keywords) of the arms of ROBOT that the scene names."
-  (loop for (name) on (role-name robot :arms) by #'cddr collect name))
+  (mapcar #'arm-roles-name (scene-part-arms (robot-part robot))))
 
 (defun gripper-pose (robot)
   "Return the pose of the tip of ROBOT's gripper."

@@ -1,0 +1,99 @@
+;;;; Footing: where the robot, as it is now, can stand.
+;;;;
+;;;; A FOOTING holds the outlines of the robot's links and of what it carries, in the frame of the
+;;;; base, and those of everything else that reaches above the ground.  FOOTING-CLEARANCE tells how
+;;;; far the robot would be from its surroundings somewhere, STRAIGHT-WAY-P if it can go straight
+;;;; from one place to another.  A PLACE is a list x, y, yaw (m, rad).
+
+(in-package #:discrepancy-finder.projection)
+
+(defconstant +yaws+ 16
+  "The outlines of the robot are kept for so many directions.")
+
+(defparameter *path-margin* 0.03d0
+  "The distance (m) that a planned path keeps from everything.")
+
+(defparameter *tight-radius* 0.2d0
+  "Within this distance (m) of its start and its goal a path may come nearer to things.")
+
+(defstruct (footing (:constructor %make-footing (parts reach)) (:copier nil))
+  "PARTS is a vector of (piece . obstacles): a piece of the robot in the frame of the base, and the
+list of the pieces that it could meet; REACH is the radius (m) of the robot about its base.  ENDS
+are the places where the path may be tight."
+  (parts #() :type simple-vector)
+  (reach 0d0 :type double-float :read-only t)
+  (turned (make-array +yaws+ :initial-element nil) :type simple-vector :read-only t)
+  (ends '() :type list))
+
+(defun make-footing (parts obstacles)
+  "Return the footing of a robot with the pieces PARTS, in the frame of its base, among the pieces
+OBSTACLES."
+  (%make-footing (coerce (loop for part in parts
+                               for near = (remove-if-not (lambda (obstacle)
+                                                           (heights-meet-p part obstacle))
+                                                         obstacles)
+                               when near collect (cons part near))
+                         'simple-vector)
+                 (loop for part in parts
+                       maximize (+ (piece-radius part)
+                                   (sqrt (+ (expt (piece-x part) 2) (expt (piece-y part) 2)))))))
+
+(defun turned-parts (footing yaw)
+  "Return the vector of the pieces of the robot of FOOTING, turned by YAW (rad)."
+  (map 'simple-vector (lambda (part) (placed-piece (car part) 0d0 0d0 yaw))
+       (footing-parts footing)))
+
+(defun parts-at (footing number)
+  "Return TURNED-PARTS for the direction NUMBER of +YAWS+."
+  (or (svref (footing-turned footing) number)
+      (setf (svref (footing-turned footing) number)
+            (turned-parts footing (* number (/ (* 2 pi) +yaws+))))))
+
+(defun parts-clearance (footing turned x y limit)
+  "Return a lower bound of the distance (m) between the robot of FOOTING, its parts TURNED already,
+at X, Y, and its surroundings; any number at most LIMIT once it is known to be that near."
+  (declare (type simple-vector turned) (type double-float x y limit) (optimize speed))
+  (let ((nearest 1d9) (parts (footing-parts footing)))
+    (declare (type double-float nearest))
+    (loop for piece across turned
+          for index of-type fixnum from 0
+          do (dolist (obstacle (cdr (the cons (svref parts index))))
+               (let ((distance (separation piece obstacle x y)))
+                 (declare (type double-float distance))
+                 (when (< distance nearest)
+                   (setf nearest distance)
+                   (when (<= nearest limit)
+                     (return-from parts-clearance nearest))))))
+    nearest))
+
+(defun footing-clearance (footing place &optional (limit -1d9))
+  "Return PARTS-CLEARANCE of the robot of FOOTING at PLACE."
+  (destructuring-bind (x y yaw) place
+    (parts-clearance footing (turned-parts footing yaw) x y limit)))
+
+(defun tight-p (footing x y)
+  "Return true if a path of FOOTING may come near to things at X, Y."
+  (loop for (end-x end-y) in (footing-ends footing)
+        thereis (< (+ (expt (- x end-x) 2) (expt (- y end-y) 2)) (expt *tight-radius* 2))))
+
+(defun short-turn (angle)
+  "Return the angle (rad) in [-pi, pi] that is equivalent to ANGLE."
+  (- angle (* 2 pi (fround angle (* 2 pi)))))
+
+(defun straight-way-p (footing from to)
+  "Return true if the robot of FOOTING can go from the place FROM straight to TO, turning meanwhile."
+  (destructuring-bind ((x y yaw) (to-x to-y to-yaw)) (list from to)
+    (let* ((dx (- to-x x)) (dy (- to-y y)) (turn (short-turn (- to-yaw yaw)))
+           ;; No point of the robot goes farther than that.
+           (length (+ (sqrt (+ (* dx dx) (* dy dy))) (* (footing-reach footing) (abs turn))))
+           (fraction 0d0))
+      (loop
+        (let* ((px (+ x (* fraction dx))) (py (+ y (* fraction dy)))
+               (limit (if (tight-p footing px py) 0d0 *path-margin*))
+               (clearance (parts-clearance footing
+                                           (turned-parts footing (+ yaw (* fraction turn)))
+                                           px py limit)))
+          (cond ((<= clearance limit) (return nil))
+                ((>= fraction 1d0) (return t)))
+          (setf fraction (min 1d0 (+ fraction (/ (max 0.02d0 (- clearance *path-margin*))
+                                                 (max length 1d-9))))))))))
