@@ -80,8 +80,9 @@ and UPWARDS are the tangents of half its fields of view."
 (defun rays-to (points camera start end)
   "Return the rays from the position of CAMERA to the points number START to END of POINTS, for
 BULLET:CAST-RAYS."
-  (declare (type numbers points) (fixnum start end) (optimize speed))
-  (let ((rays (make-array (* 6 (- end start)) :element-type 'double-float)))
+  (declare (type numbers points) (type (unsigned-byte 32) start end) (optimize speed))
+  (let ((rays (make-array (* 6 (the (unsigned-byte 32) (- end start)))
+                          :element-type 'double-float)))
     (loop for ray of-type fixnum from 0 by 6
           for point of-type fixnum from (* 3 start) below (* 3 end) by 3
           do (setf (aref rays ray) (pose-x camera)
