@@ -369,7 +369,7 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
                              (:file "rays")))
                (:module "projection" :serial t
-                :components ((:file "two-regions") (:file "head") (:file "perception")
+                :components ((:file "two-regions") (:file "head") (:file "perception") (:file "seeing")
                              (:file "actions-symbolic")))
                (:module "discrepancy"
                 :serial t

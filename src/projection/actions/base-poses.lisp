@@ -2,9 +2,9 @@
 ;;;; robot) and (facing place).
 ;;;;
 ;;;; The base poses around a target are those of a fixed lattice: so many directions, some distances
-;;;; in each, the robot turned to the target.  They are taken near the robot first; one that is close
-;;;; to what was taken before has its turn later.  A pose at which the robot would touch something
-;;;; is none, nor one from which the target is out of reach or hidden.  What is meant is said by
+;;;; in each, the robot turned to the target.  They are taken near the robot first; one close to
+;;;; what was taken before has its turn later.  A pose at which the robot would touch something is
+;;;; none, nor one from which the target is hidden that is to be seen.  What is meant is said by
 ;;;;   :object     an item, where it was perceived or else is, or a part of a fixture: its handle
 ;;;;   :location   a location with a pose
 ;;;;   :arm        :left or :right, before which the target shall be.
@@ -81,37 +81,18 @@ after all that are not."
 
 ;;; What is to be reached or seen
 
-(defun handle-link (model link)
-  "Return the link of MODEL that is the handle of LINK, a name: one with handle in its name on a
-fixed joint of LINK, or NIL."
-  (loop for joint in (urdf-model-joints model)
-        when (and (string= link (urdf-joint-parent joint))
-                  (eq (urdf-joint-type joint) :fixed)
-                  (search "handle" (urdf-joint-child joint)))
-          return (find (urdf-joint-child joint) (urdf-model-links model)
-                       :key #'urdf-link-name :test #'string=)))
-
-(defun handle-pose (projection thing)
-  "Return the pose of the middle of the handle of the part of a fixture that THING means, turned so
-that x is the way in which the part moves when it opens; NIL if it is none that opens."
-  (dolist (name (part-names thing))
-    (multiple-value-bind (link fixture) (part-link projection name)
-      (when link
-        (let* ((model (scene-part-model (scene-part (projection-scene projection) fixture)))
-               (joint (find link (urdf-model-joints model)
-                            :key #'urdf-joint-child :test #'string=))
-               (handle (handle-link model link)))
-          (return
-            (when (and joint handle (not (eq (urdf-joint-type joint) :fixed)))
-              (let ((frame (fixture-link-pose projection link fixture))
-                    (place (fixture-link-pose projection (urdf-link-name handle) fixture)))
-                (multiple-value-bind (low high) (shape-bounds (urdf-link-shape handle) place)
-                  (let ((axis (compose (quaternion-pose 0d0 0d0 0d0 (pose-qx frame) (pose-qy frame)
-                                                        (pose-qz frame) (pose-qw frame))
-                                       (apply #'make-pose (urdf-joint-axis joint)))))
-                    (destructuring-bind (x y z)
-                        (mapcar (lambda (low high) (/ (+ low high) 2)) low high)
-                      (make-pose x y z :yaw (atan (pose-y axis) (pose-x axis))))))))))))))
+(defun handle-place (projection thing)
+  "Return the pose of the middle of the handle of the container that THING, a designator, means, x
+being the way in which it opens; NIL if it means none."
+  (let ((container (and (typep thing 'plan:object-designator)
+                        (first (find-containers projection thing)))))
+    (when container
+      (let* ((pose (handle-pose projection container))
+             (outward (outward projection container pose)))
+        (multiple-value-bind (low high)
+            (shape-bounds (urdf-link-shape (container-handle container)) pose)
+          (destructuring-bind (x y z) (mapcar (lambda (low high) (/ (+ low high) 2)) low high)
+            (make-pose x y z :yaw (atan (second outward) (first outward)))))))))
 
 (defun object-place (projection object)
   "Return the pose of what the designator OBJECT means: as it was perceived, or else as it is."
@@ -125,9 +106,8 @@ as second value if it is that of a handle."
   (let ((object (or (plan:desig-prop-value location :object)
                     (plan:desig-prop-value location :obj)))
         (place (plan:desig-prop-value location :location)))
-    (cond ((and object (handle-pose projection object))
-           (values (handle-pose projection object) t))
-          (object (object-place projection object))
+    (cond ((and object (object-place projection object)))
+          (object (values (handle-place projection object) t))
           (place (plan:designated-pose place)))))
 
 ;;; Tests
@@ -137,8 +117,8 @@ as second value if it is that of a handle."
   (compose base (compose (inverse (base-pose robot)) (camera-pose robot))))
 
 (defun in-sight-p (projection base target)
-  "Return true if the camera of PROJECTION's robot, with the base at the pose BASE, has a free line of
-sight to the position of TARGET.  Items do not count as in the way: one of them may be sought."
+  "Return true if the camera of PROJECTION's robot, with the base at the pose BASE, has a free line
+of sight to the position of TARGET.  Items do not count as in the way: one of them may be sought."
   (let* ((robot (projection-robot projection))
          (camera (camera-at robot base))
          (way (sqrt (+ (expt (planar-distance camera target) 2)

@@ -3,9 +3,9 @@
 (in-package #:discrepancy-finder.projection)
 
 (def-cram-function pick-up-perceived (?object ?arm ?pick-up-action)
-  "Turn to the object ?OBJECT, perceive it once more and pick it up, with ?ARM if that is not NIL, or
-as the designator ?PICK-UP-ACTION says.  If the fingers close on nothing try that once more.  Return
-the object's new designator."
+  "Turn to the object ?OBJECT, perceive it once more and pick it up, with ?ARM if that is not NIL,
+or as the designator ?PICK-UP-ACTION says.  If the fingers close on nothing try that once more.
+Return the object's new designator."
   (with-retry-counters ((regrasps 1))
     (with-failure-handling
         ((gripper-low-level-failure (failure)
@@ -47,8 +47,8 @@ Return the object's new designator."
 ;;; Delivering
 
 (def-cram-function deliver-to (?object ?target ?robot-location ?place-action)
-  "Bring the object ?OBJECT, which the robot holds, to the location ?TARGET, by ?PLACE-ACTION if that
-is not NIL, from ?ROBOT-LOCATION or another place where this can be reached, up to five more."
+  "Bring the object ?OBJECT, which the robot holds, to the location ?TARGET, by ?PLACE-ACTION if
+that is not NIL, from ?ROBOT-LOCATION or another place where this can be reached, up to five more."
   (let ((?robot-location (or ?robot-location
                              (a location (reachable-for robot) (location ?target)))))
     (with-retry-counters ((relocations 5))

@@ -16,19 +16,25 @@
   "Drive to the location ?TARGET."
   (perform (a motion (type going) (target ?target))))
 
-(defun parked-p (robot arm)
-  "Return true if the joints of ARM, of ROBOT, are where they are when it is parked, or if that is
-nowhere."
-  (loop for joint in (arm-roles-joints arm)
-        for parked in (arm-roles-parked arm)
-        always (< (abs (- parked (joint-position robot joint))) 1d-3)))
+(defun out-of-the-way-p (projection arm)
+  "Return true if ARM of PROJECTION's robot is parked, or holds something close to the robot."
+  (let ((robot (projection-robot projection)))
+    (if (held-item projection (arm-roles-name arm))
+        (let ((tool (compose (inverse (base-pose robot))
+                             (robot-link-pose robot (arm-roles-tool arm)))))
+          (and (<= (pose-x tool) 0.65d0) (<= (abs (pose-y tool)) 0.45d0)))
+        (loop for joint in (arm-roles-joints arm)
+              for parked in (arm-roles-parked arm)
+              always (< (abs (- parked (joint-position robot joint))) 1d-3)))))
 
 (defun arms-in-the-way-p ()
-  "Return true if the robot of the projection in which a plan runs has an arm that is not parked."
+  "Return true if the robot of the projection in which a plan runs has an arm in the way when it
+drives."
   (let* ((projection (plan:current-executive))
          (robot (and (typep projection 'projection) (projection-robot projection))))
     (and robot
-         (notevery (lambda (arm) (parked-p robot arm)) (scene-part-arms (robot-part robot))))))
+         (notevery (lambda (arm) (out-of-the-way-p projection arm))
+                   (scene-part-arms (robot-part robot))))))
 
 (def-cram-function go-without-collisions (?location)
   "Drive to the location ?LOCATION with the arms parked; to its next solution where the robot does

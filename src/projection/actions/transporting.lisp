@@ -13,8 +13,9 @@
     (perform (an action (type fetching) (object ?found) (when ?arm (arm ?arm))))))
 
 (def-cram-function transport (?object ?location ?target ?arm ?container)
-  "Bring the object ?OBJECT from ?LOCATION to ?TARGET, with ?ARM if that is not NIL.  If ?LOCATION is
-in ?CONTAINER, which is NIL otherwise, open that before and close it afterwards, whatever happens."
+  "Bring the object ?OBJECT from ?LOCATION to ?TARGET, with ?ARM if that is not NIL.  If ?LOCATION
+is in ?CONTAINER, which is NIL otherwise, open that before and close it afterwards, whatever
+happens."
   (let ((?fetched
           (if ?container
               (progn

@@ -1,7 +1,7 @@
 ;;;; Places: parts of fixtures that designators name, and what is on or in them.
 ;;;;
 ;;;; A PART is a body of a fixture: the fixture's immobile links together, or what a joint moves, as
-;;;; a drawer.  It is named by a link of it, by its joint or by the fixture, as a string or a symbol;
+;;;; a drawer.  It is named by a link of it, by its joint or by the fixture, a string or a symbol;
 ;;;; hyphens and underscores are the same, so that (urdf-name drawer-2) is the link drawer_2.
 ;;;; What is on or in a part is what has it straight below, whatever items are in between.
 
@@ -35,22 +35,36 @@ PROJECTION, or NIL: a link, else what a joint moves, else the root of a fixture.
         (and part
              (values (urdf-model-root (scene-part-model part)) (scene-part-name part)))))))
 
-(defun part-names (thing)
-  "Return the names of the part that THING, an object designator, a string or a symbol, means, the
-most special first."
-  (typecase thing
-    (plan:object-designator
-     (remove nil (loop for key in '(:urdf-name :name :type :part-of)
-                       collect (plan:desig-prop-value thing key))))
-    ((or string (and symbol (not null))) (list thing))))
+(defun movable-link (projection type)
+  "Return the name of the first link that a joint with TYPE in its name moves, and of its fixture, or
+NIL."
+  (dolist (part (parts-of-kind (projection-scene projection) :fixture))
+    (dolist (joint (urdf-model-joints (scene-part-model part)))
+      (when (and (not (eq (urdf-joint-type joint) :fixed))
+                 (search (plain-name type) (plain-name (urdf-joint-name joint))))
+        (return-from movable-link (values (urdf-joint-child joint) (scene-part-name part)))))))
+
+(defun thing-link (projection thing)
+  "Return the name of the link and of the fixture of the part that THING, an object designator, a
+string or a symbol, means, or NIL."
+  (flet ((try (function name)
+           (when name
+             (multiple-value-bind (link fixture) (funcall function projection name)
+               (when link (return-from thing-link (values link fixture)))))))
+    (typecase thing
+      (plan:object-designator
+       (try #'part-link (plan:desig-prop-value thing :urdf-name))
+       (try #'part-link (plan:desig-prop-value thing :name))
+       (try #'part-link (plan:desig-prop-value thing :type))
+       (try #'movable-link (plan:desig-prop-value thing :type))
+       (try #'part-link (plan:desig-prop-value thing :part-of)))
+      ((or string symbol) (try #'part-link thing)))))
 
 (defun part-body (projection thing)
   "Return the body of the part of a fixture of PROJECTION that THING, an object designator, a string
 or a symbol, means, or NIL."
-  (dolist (name (part-names thing))
-    (multiple-value-bind (link fixture) (part-link projection name)
-      (when link
-        (return (fixture-link-body projection link fixture))))))
+  (multiple-value-bind (link fixture) (thing-link projection thing)
+    (and link (fixture-link-body projection link fixture))))
 
 (defun location-part (projection location)
   "Return the body of the part on or in which LOCATION, a location designator, is, or NIL."

@@ -42,7 +42,7 @@ execution fails, DESIGNATOR-NOT-UNDERSTOOD if it cannot be interpreted.")
       (plan:call-on-main
        (lambda ()
          ;; The float traps of C are set once an execution; the plan itself has those of Lisp.
-         ;; This may be another thread than the task's: what resolves locations asks for the executive.
+         ;; On another thread than the task's, what resolves locations still finds the projection.
          (plan:with-executive (projection)
            (foreign:with-c-float-traps
              (execute-designator projection (plan:designator-class-keyword designator)
