@@ -106,7 +106,7 @@ The environment variable CXX names another compiler than g++."))
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
                (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")
-               (:file "rays")))
+               (:file "rays") (:file "mechanisms") (:file "inverse-kinematics")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -290,15 +290,24 @@ The environment variable CXX names another compiler than g++."))
                              (:file "searching") (:file "environment") (:file "fetching")
                              (:file "transporting") (:file "groundings")))))
 
+(asdf:defsystem "discrepancy-finder/statistics"
+  :description "Distributions, regression, and rules that decide when there are enough samples."
+  :depends-on ("discrepancy-finder/geometry")
+  :pathname "src/statistics/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "normal") (:file "beta")
+               (:file "student") (:file "least-squares") (:file "regression") (:file "rules")
+               (:file "evidence") (:file "paper-rule") (:file "zero-failure")
+               (:file "prediction")))
+
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
   :depends-on ("discrepancy-finder/symbolic-execution" "discrepancy-finder/projection"
-               "discrepancy-finder/json" "alexandria")
+               "discrepancy-finder/statistics" "discrepancy-finder/json" "alexandria")
   :pathname "src/discrepancy/"
   :serial t
-  :components ((:file "package") (:file "statistics-conditions") (:file "conditions")
-               (:file "random") (:file "quantile") (:file "least-squares") (:file "confidence")
-               (:file "paper-rule") (:file "abstraction") (:file "define-abstraction")
+  :components ((:file "package") (:file "conditions")
+               (:file "random") (:file "abstraction") (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "replay")
                (:file "replay-file")))
@@ -367,14 +376,17 @@ The environment variable CXX names another compiler than g++."))
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
-                             (:file "rays")))
+                             (:file "rays") (:file "mechanisms")))
                (:module "projection" :serial t
-                :components ((:file "two-regions") (:file "head") (:file "perception") (:file "seeing")
-                             (:file "actions-symbolic")))
+                :components ((:file "two-regions") (:file "head") (:file "perception")
+                             (:file "seeing") (:file "actions-symbolic")))
+               (:module "statistics"
+                :serial t
+                :components ((:file "normal") (:file "distributions") (:file "least-squares")
+                             (:file "paper-rule") (:file "guaranteed-rules")))
                (:module "discrepancy"
                 :serial t
-                :components ((:file "random") (:file "quantile") (:file "least-squares")
-                             (:file "confidence") (:file "abstraction") (:file "search")
+                :components ((:file "random") (:file "abstraction") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
                (:file "interface") (:file "theory-commands") (:file "readme")

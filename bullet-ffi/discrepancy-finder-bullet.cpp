@@ -228,3 +228,6 @@ int dfb_body_allow_sleep(dfb_world *world, int id, int flag) {
 }
 
 }  // extern "C"
+
+#include "mechanisms.inc"
+#include "kinematics.inc"

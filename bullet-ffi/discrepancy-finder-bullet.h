@@ -37,7 +37,8 @@ enum dfb_status {
   DFB_BAD_KIND = -6,        /* the kind of the body does not allow it */
   DFB_TOO_SMALL = -7,       /* the output has no room for the result */
   DFB_NO_MEMORY = -8,
-  DFB_NOTHING = -9          /* no two bodies penetrate each other */
+  DFB_NOTHING = -9,         /* no two bodies penetrate each other */
+  DFB_BAD_LINK = -20        /* no mechanism, link or joint has this id, or the tree is none */
 };
 
 enum dfb_kind { DFB_STATIC = 0, DFB_DYNAMIC = 1, DFB_KINEMATIC = 2 };
@@ -123,6 +124,34 @@ DFB_API int dfb_cast_ray(dfb_world *world, double x, double y, double z, double 
  * where there is one.  Return the number of rays that hit something. */
 DFB_API int dfb_cast_rays(dfb_world *world, int count, const double *rays, int passed_count,
                           const int *passed, int *bodies, double *hits);
+
+/* Mechanisms: trees of links moved by forward kinematics, robots.  A link hangs on a joint, which
+ * has the link's index; positions are one double (m or rad) for each joint. */
+/* Return a mechanism of count links, parents first.  Each has 4 integers: parent or -1; type, 0
+ * fixed, 1 turning, 2 sliding; the joint that it mimics or -1; kinematic body or -1; and 14
+ * doubles: pose of the joint in the frame of the parent, unit axis, lower and upper limit (may be
+ * infinite), multiplier and offset of the mimicked position. */
+DFB_API int dfb_mechanism_new(dfb_world *world, int count, const int *integers,
+                              const double *numbers);
+/* Move the links' bodies to where base, a pose, and positions put them; with teleport 1 at rest, and
+ * with them what is attached to them. */
+DFB_API int dfb_mechanism_pose(dfb_world *world, int mechanism, const double *base,
+                               const double *positions, int teleport);
+/* Write the pose of a link as of the last time that the mechanism was moved. */
+DFB_API int dfb_link_pose(dfb_world *world, int mechanism, int link, double *pose);
+/* Write the pose that a link would have. */
+DFB_API int dfb_forward_kinematics(dfb_world *world, int mechanism, const double *base,
+                                   const double *positions, int link, double *pose);
+/* Find positions of the joints that take tool, a pose in the frame of link, to target, all others
+ * as in start; return how many solutions there are, at most most, and write each: positions.  The
+ * attempts from first_attempt on are made: number 0 begins at start, others at random positions.
+ * A solution is no farther (m + rad) than tolerance away; with position_only 1 the turn is free.
+ * Write the error, m and rad, of the first solution, or of the best attempt. */
+DFB_API int dfb_inverse_kinematics(dfb_world *world, int mechanism, int link, const double *base,
+                                   const double *tool, const double *target, int joint_count,
+                                   const int *joints, const double *start, int position_only,
+                                   int attempts, int first_attempt, double tolerance, int most,
+                                   double *solutions, double *error);
 #ifdef __cplusplus
 }
 #endif

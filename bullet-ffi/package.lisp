@@ -29,5 +29,10 @@ order give equal bits, in any thread or process, and queries change no later bit
    ;; contacts and sweeps
    ;; checkpoints
    ;; mechanisms
+   #:link-spec #:link-spec-name #:link-spec-parent #:link-spec-type #:link-spec-origin
+   #:link-spec-axis #:link-spec-lower #:link-spec-upper #:link-spec-mimic #:link-spec-body
+   #:mechanism #:make-mechanism #:mechanism-world #:mechanism-links #:link-index
+   #:make-positions #:pose-mechanism #:link-pose #:forward-kinematics #:inverse-kinematics
+   #:run-motion
    ;; rays
    #:cast-ray #:cast-rays))

@@ -97,7 +97,8 @@ status is :NOTHING."
     (:bad-number "a number is out of range")
     (:bad-kind "the kind of the body does not allow it")
     (:too-small "the vector is too short")
-    (:no-memory "the memory is used up")))
+    (:no-memory "the memory is used up")
+    (:bad-link "the link, or one of the joints, is none of the mechanism")))
 
 (defun in-range-p (number sort)
   (and (not (sb-ext:float-nan-p number))

@@ -24,7 +24,8 @@
    ;; scenes
    #:load-scene #:scene #:scene-name #:scene-file #:scene-files #:scene-parameters #:scene-parameter
    #:scene-with-parameters #:normalized-parameters #:scene-body-pose #:check-movable
-   #:scene-item-names #:scene-item-type #:scene-item-grasps #:scene-tolerances #:scene-knows-p
+   #:scene-item-names #:scene-item-type #:scene-item-grasps #:scene-tolerances #:scene-open-tolerances
+   #:scene-knows-p
    #:scene-robot-name
    ;; URDF
    #:read-urdf #:urdf-model #:urdf-model-name #:urdf-link #:urdf-joint
