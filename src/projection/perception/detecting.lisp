@@ -40,13 +40,14 @@ with the item's type, name and pose.  Tells of it by an event."
   (plan:fail 'plan:perception-object-not-found
              :object designator
              :description
-             (format nil "~a is not seen: ~:[there is no such item~@[ there~*~]~;~2:*~{~a~^, ~}, ~
-                          where ~*~,1f % are needed~]"
-                     designator
-                     (loop for (name . part) in seen
-                           collect (format nil "~,1f % of ~(~a~)" (* 100 part) name))
-                     (plan:desig-prop-value designator :location)
-                     (* 100 (projection-parameter projection :visible-fraction)))))
+             (if seen
+                 (format nil "~a is not seen: ~{~a~^, ~}, where ~,1f % are needed"
+                         designator
+                         (loop for (name . part) in seen
+                               collect (format nil "~,1f % of ~(~a~)" (* 100 part) name))
+                         (* 100 (projection-parameter projection :visible-fraction)))
+                 (format nil "~a is not seen: there is no such item~:[~; there~]"
+                         designator (plan:desig-prop-value designator :location)))))
 
 (defun sought-items (projection designator)
   "Return the names of the items that the object DESIGNATOR may mean, in the order of the scene."

@@ -30,13 +30,12 @@ forward, or NIL if there is no such direction."
 (defun frame-pose (projection name)
   "Return the pose of the frame NAME, a string: a link of PROJECTION's robot, an item or a link of a
 fixture; NIL if there is none."
-  (let ((robot (projection-robot projection)))
-    (cond ((named-frame-number robot name)
-           (robot-link-pose robot name))
-          ((find-item projection (string-upcase name))
-           (observed-pose projection (string-upcase name)))
-          ((part-body projection name)
-           (bullet:body-pose (part-body projection name))))))
+  (let ((robot (projection-robot projection))
+        (item (find name (projection-items projection) :key #'car :test #'same-name-p)))
+    (cond ((named-frame-number robot name) (robot-link-pose robot name))
+          (item (bullet:body-pose (cdr item)))
+          (t (multiple-value-bind (link fixture) (part-link projection name)
+               (and link (fixture-link-pose projection link fixture)))))))
 
 (defun move-head-to-angles (projection angles)
   "Move the head to ANGLES, the list of pan and tilt (rad).  Signals PTU-GOAL-NOT-REACHED, after the
