@@ -36,9 +36,7 @@ seven doubles of a pose."
   (world :pointer) (count :int) (children :pointer) (poses :pointer))
 
 (define-raw %body-new "dfb_body_new" :int
-  (world :pointer) (shape :int) (kind :int) :pose (mass :double)
-  (ix :double) (iy :double) (iz :double)
-  (friction :double) (rolling-friction :double) (restitution :double))
+  (world :pointer) (shape :int) (kind :int) (pose :pointer) (mass :pointer) (material :pointer))
 (define-raw %body-move "dfb_body_move" :int (world :pointer) (body :int) :pose)
 (define-raw %body-place "dfb_body_place" :int (world :pointer) (body :int) :pose)
 (define-raw %body-wake "dfb_body_wake" :int (world :pointer) (body :int))
@@ -53,6 +51,11 @@ seven doubles of a pose."
 
 (define-raw %attach "dfb_attach" :int (world :pointer) (parent :int) (child :int))
 (define-raw %detach "dfb_detach" :int (world :pointer) (attachment :int))
+(define-raw %grip "dfb_grip" :int
+  (world :pointer) (parent :int) (child :int) (point :pointer) (axis :pointer)
+  (capacity :double) (torsion-radius :double))
+(define-raw %attachment-state "dfb_attachment_state" :int
+  (world :pointer) (attachment :int) (utilization :pointer))
 (define-raw %attachment-load "dfb_attachment_load" :int
   (world :pointer) (attachment :int) (load :pointer))
 (define-raw %ignore-collision "dfb_ignore_collision" :int

@@ -40,7 +40,8 @@
   (steps 0 :type (and fixnum unsigned-byte))
   (body-vector (make-array 16 :adjustable t :fill-pointer 0) :type vector :read-only t)
   (body-names (make-hash-table :test #'equal) :type hash-table :read-only t)
-  (attachment-list '() :type list))
+  (attachment-vector (make-array 4 :adjustable t :fill-pointer 0) :type vector :read-only t)
+  (joint-vector (make-array 4 :adjustable t :fill-pointer 0) :type vector :read-only t))
 
 (setf (documentation 'world-time-step 'function) "Return the time step of WORLD (s).")
 
@@ -93,7 +94,7 @@ status is :NOTHING."
     (:bad-world "the world is closed")
     (:bad-body "the bodies are not two bodies of this world")
     (:bad-shape "the shape cannot be used in this way")
-    (:bad-constraint "the attachment is detached")
+    (:bad-constraint "the attachment or joint is not there any more")
     (:bad-number "a number is out of range")
     (:bad-kind "the kind of the body does not allow it")
     (:too-small "the vector is too short")

@@ -28,7 +28,8 @@
    #:scene-knows-p
    #:scene-robot-name
    ;; URDF
-   #:read-urdf #:urdf-model #:urdf-model-name #:urdf-link #:urdf-joint
+   #:read-urdf #:urdf-model #:urdf-model-name #:urdf-model-root #:urdf-model-links
+   #:urdf-model-joints #:urdf-link #:urdf-joint
    ;; projections
    #:projection #:make-projection #:close-projection #:with-projection #:projection-world
    #:projection-scene #:observed-pose #:held-item #:settle #:interpenetration #:state-hash
@@ -43,5 +44,5 @@
    ;; conditions
    #:projection-error #:scene-error #:scene-error-file #:scene-error-line #:scene-error-reason
    #:urdf-error #:urdf-error-file #:urdf-error-line #:urdf-error-reason
-   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint
+   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint #:impossible-joint-position
    #:missing-robot-part))
