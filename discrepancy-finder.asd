@@ -106,8 +106,10 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
-               (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")
-               (:file "rays") (:file "mechanisms") (:file "inverse-kinematics")))
+               (:file "shapes") (:file "hulls") (:file "inertia") (:file "bodies")
+               (:file "attachments") (:file "joints")
+               (:file "queries") (:file "contacts") (:file "rays") (:file "mechanisms")
+               (:file "inverse-kinematics") (:file "motion-runs")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -265,26 +267,39 @@ The environment variable CXX names another compiler than g++."))
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
   :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "alexandria"
-               "xmls" "salza2")
+               "cffi" "salza2")
   :pathname "src/projection/"
   :serial t
   :components ((:file "package") (:file "conditions")
                (:module "models" :serial t
-                :components ((:file "urdf")))
+                :components ((:file "xml") (:file "xml-reader") (:file "numbers") (:file "inertia") (:file "packages")
+                             (:file "meshes") (:file "links") (:file "joints") (:file "urdf")
+                             (:file "groups")))
                (:module "scenes" :serial t
                 :components ((:file "clauses") (:file "parameters") (:file "scene")
                              (:file "materials") (:file "robots") (:file "reading")))
                (:module "worlds" :serial t
-                :components ((:file "robot") (:file "projection") (:file "building")
-                             (:file "observations") (:file "performing")))
+                :components ((:file "outlines") (:file "blueprints") (:file "robot")
+                             (:file "projection") (:file "building") (:file "observations")
+                             (:file "performing")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "runner") (:file "head")))
+                :components ((:file "profiles") (:file "runner") (:file "head")
+                             (:file "torso")))
                (:module "navigation" :serial t
-                :components ((:file "going")))
+                :components ((:file "terrain") (:file "footing") (:file "base-paths")
+                             (:file "surroundings") (:file "base-motion") (:file "going")))
                (:module "perception" :serial t
-                :components ((:file "surface") (:file "detecting")))
+                :components ((:file "hulls") (:file "surface") (:file "seeing")
+                             (:file "places") (:file "detecting") (:file "looking")))
                (:module "manipulation" :serial t
-                :components ((:file "column-arm")))
+                :components ((:file "column-arm") (:file "extents") (:file "grasps")
+                             (:file "fitting") (:file "arms") (:file "gripper") (:file "ways")
+                             (:file "reaching") (:file "picking") (:file "placing")
+                             (:file "containers") (:file "modules")))
+               (:module "actions" :serial t
+                :components ((:file "places") (:file "base-poses") (:file "moving")
+                             (:file "searching") (:file "environment") (:file "fetching")
+                             (:file "transporting") (:file "groundings")))
                (:module "pictures" :serial t
                 :components ((:file "solids") (:file "viewpoints") (:file "png")
                              (:file "ray-casting") (:file "top-view")
@@ -376,9 +391,11 @@ The environment variable CXX names another compiler than g++."))
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
-                             (:file "rays") (:file "mechanisms")))
+                             (:file "rays") (:file "mechanisms") (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
+                             (:file "seeing") (:file "manipulation")
+                             (:file "manipulation-kitchen") (:file "actions-symbolic")
                              (:file "pictures")))
                (:module "statistics"
                 :serial t
@@ -389,6 +406,9 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "random") (:file "abstraction") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
+               (:module "kitchen" :pathname "projection/" :serial t
+                :components ((:file "kitchen") (:file "kitchen-effects")
+                             (:file "kitchen-fidelity")))
                (:file "interface") (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))

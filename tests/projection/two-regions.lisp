@@ -193,10 +193,10 @@
     (projection:read-urdf "no/such.urdf"))
   (urdf-problem-of "<robot name=\"r\"><link" "not well-formed XML")
   (urdf-problem-of "<sdf/>" "not <robot>")
-  (urdf-problem-of (urdf-with "") "one tree")
+  (urdf-problem-of (urdf-with "") ":1: " "no link")
   (urdf-problem-of (urdf-with "<link/>") "a link" "no attribute name")
-  (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><mesh filename=\"x\"/>
-                               </geometry></collision></link>") "link a" "<mesh>" "box")
+  (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><capsule radius=\"1\"/>
+                               </geometry></collision></link>") "link a" "<capsule>" "box")
   (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><box size=\"1 2\"/>
                                </geometry></collision></link>") "link a" "3 numbers")
   (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><sphere radius=\"#.1\"/>

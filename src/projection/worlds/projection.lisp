@@ -16,8 +16,8 @@
    (world :initarg :world :reader projection-world :documentation "The Bullet world.")
    (robot :initarg :robot :reader projection-robot
           :documentation "The ROBOT, or NIL.")
-   (fixtures :initarg :fixtures :reader projection-fixtures
-             :documentation "The list of the bodies of the fixtures, drawers included.")
+   (solids :initarg :solids :reader projection-solids
+           :documentation "The list of the SOLIDs that the fixtures are, drawers included.")
    (items :initarg :items :reader projection-items
           :documentation "List of (name . body).")
    (joints :initarg :joints :initform '() :reader projection-joints
@@ -52,6 +52,10 @@ IMPOSSIBLE-PARAMETER."
         (projection nil))
     (unwind-protect (setf projection (build-world scene world fidelity poses joints))
       (unless projection (bullet:close-world world)))))
+
+(defun projection-fixtures (projection)
+  "Return the list of the bodies of PROJECTION's fixtures, drawers included."
+  (mapcar #'solid-body (projection-solids projection)))
 
 (defun close-projection (projection)
   "Free the world of PROJECTION."
