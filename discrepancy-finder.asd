@@ -301,7 +301,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "searching") (:file "environment") (:file "fetching")
                              (:file "transporting") (:file "groundings")))
                (:module "pictures" :serial t
-                :components ((:file "solids") (:file "viewpoints") (:file "png")
+                :components ((:file "chunks") (:file "viewpoints") (:file "png")
                              (:file "ray-casting") (:file "top-view")
                              (:file "view-world") (:file "frames")))))
 

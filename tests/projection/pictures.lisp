@@ -80,7 +80,7 @@ VIEWPOINT, and NIL if it is outside of the picture."
          (canvas (projection::make-canvas
                   :world (projection:projection-world projection)
                   :frame (projection::viewpoint-frame viewpoint) :width width :height height
-                  :colors (projection::body-colors (projection::projection-solids projection))
+                  :colors (projection::body-colors (projection::projection-chunks projection))
                   :cuts (projection::number-vector '())
                   :walls (projection::number-vector '()))))
     (and (< 0 column width) (< 0 row height)
@@ -97,14 +97,14 @@ VIEWPOINT, and NIL if it is outside of the picture."
 (test everything-is-on-the-picture
   (with-view (projection (table-top-scene))
     (projection:settle projection)
-    (let* ((solids (projection::projection-solids projection))
-           (viewpoint (projection::scene-viewpoint solids 400 300)))
+    (let* ((chunks (projection::projection-chunks projection))
+           (viewpoint (projection::scene-viewpoint chunks 400 300)))
       (loop for (name . body) in (projection:projection-items projection)
             for seen = (colors-at projection viewpoint 400 300 (bullet:body-pose body))
             do (is-true seen "~a is outside" name)
                (is-true (every (lambda (a b) (nearly a b 1d-9))
-                               (hue-of (projection::solid-color
-                                        (find body solids :key #'projection::solid-body)))
+                               (hue-of (projection::chunk-color
+                                        (find body chunks :key #'projection::chunk-body)))
                                (hue-of seen))
                         "~a has another colour" name)))))
 
@@ -147,11 +147,9 @@ VIEWPOINT, and NIL if it is outside of the picture."
         (is-true (search (format nil ">~a</text>" name) picture) "no ~a" name)))))
 
 (test outlines-are-convex-hulls
-  (is (equal '((0 0) (2 0) (2 1) (0 1))
-             (projection::convex-outline '((2 1) (1 0) (0 0) (1 1/2) (0 1) (2 0) (1 1) (0 0)))))
   (flet ((area (shape pose)
-           (let ((outline (projection::solid-outline
-                           (projection::make-solid :pose pose :shape shape))))
+           (let ((outline (projection::chunk-outline
+                           (projection::make-chunk :pose pose :shape shape))))
              (loop for (a b) on (append outline (list (first outline)))
                    while b
                    sum (/ (- (* (first a) (second b)) (* (first b) (second a))) 2)))))
@@ -178,21 +176,21 @@ VIEWPOINT, and NIL if it is outside of the picture."
                                     (:item cup ~s (:at 0 0 0.05)))"
                              room (root-file "models/table-top/cup.urdf")))
       (with-view (projection (projection:load-scene file))
-        (let* ((solids (projection::projection-solids projection))
-               (walls (projection::enclosing-faces solids))
-               (viewpoint (projection::scene-viewpoint solids 40 30)))
+        (let* ((chunks (projection::projection-chunks projection))
+               (walls (projection::enclosing-faces chunks))
+               (viewpoint (projection::scene-viewpoint chunks 40 30)))
           (is (= 5 (length walls)))
-          (is (= 1 (length (projection::contents solids))))
+          (is (= 1 (length (projection::contents chunks))))
           (is (= 3 (length (projection::near-faces
                             walls (geometry:make-pose 5 -5 5)))) "two walls and the ceiling")
           (is (= 0 (length (projection::near-faces walls (geometry:make-pose 0 0 1)))))
-          (is (= (1- (length solids)) (length (projection::below-ceilings solids))))
+          (is (= (1- (length chunks)) (length (projection::below-ceilings chunks))))
           ;; The cup is red in the middle of the picture, if no wall is before it.
           (let* ((pixels (projection::canvas-pixels
                           (projection::make-canvas
                            :world (projection:projection-world projection)
                            :frame (projection::viewpoint-frame viewpoint) :width 40 :height 30
-                           :colors (projection::body-colors solids)
+                           :colors (projection::body-colors chunks)
                            :walls (projection::number-vector (apply #'append walls))
                            :cuts (projection::number-vector
                                   (apply #'append

@@ -42,7 +42,7 @@ PICTURE-ERROR if that cannot be or nothing can be written there."
   "Return the pose from which RECORDER takes its perspective pictures of PROJECTION."
   (or (recorder-camera recorder)
       (setf (recorder-camera recorder)
-            (viewpoint-pose (scene-viewpoint (projection-solids projection) 4 3)))))
+            (viewpoint-pose (scene-viewpoint (projection-chunks projection) 4 3)))))
 
 (defun record-frame (recorder projection caption)
   "Write the pictures of PROJECTION, as it is now, as the next frame of RECORDER, with the text

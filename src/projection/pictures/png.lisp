@@ -15,8 +15,8 @@
          (loop for part in parts
                collect (if (stringp part) (map 'list #'char-code part) part))))
 
-(defun png-chunk (type data)
-  "Return the chunk of TYPE, a string, with DATA, a sequence of octets."
+(defun png-section (type data)
+  "Return the section of TYPE, a string, with DATA, a sequence of octets."
   (let ((body (octets type data))
         (checksum (make-instance 'salza2:crc32-checksum)))
     (salza2:update checksum body 0 (length body))
@@ -32,6 +32,6 @@
       (replace rows pixels :start1 (1+ (* row (1+ row-length)))
                            :start2 (* row row-length) :end2 (* (1+ row) row-length)))
     (octets '(137) "PNG" '(13 10 26 10)
-            (png-chunk "IHDR" (octets (big-endian width) (big-endian height) '(8 2 0 0 0)))
-            (png-chunk "IDAT" (salza2:compress-data rows 'salza2:zlib-compressor))
-            (png-chunk "IEND" #()))))
+            (png-section "IHDR" (octets (big-endian width) (big-endian height) '(8 2 0 0 0)))
+            (png-section "IDAT" (salza2:compress-data rows 'salza2:zlib-compressor))
+            (png-section "IEND" #()))))

@@ -7,8 +7,6 @@
 
 (in-package #:discrepancy-finder.projection)
 
-(deftype numbers () '(simple-array double-float (*)))
-
 (defparameter *light* '(0.36d0 -0.48d0 0.80d0)
   "The unit vector towards the light.")
 
@@ -27,17 +25,17 @@ these as long as half the picture is wide and high; COLORS has the colour of eac
 numbers; WALLS are the faces around everything, four numbers each, CUTS those of them on which rays
 begin."
   (world nil :read-only t)
-  (frame nil :type numbers :read-only t)
+  (frame nil :type doubles :read-only t)
   (flat nil :read-only t)
   (width 0 :type fixnum :read-only t)
   (height 0 :type fixnum :read-only t)
   (colors nil :type hash-table :read-only t)
-  (walls nil :type numbers :read-only t)
-  (cuts nil :type numbers :read-only t)
+  (walls nil :type doubles :read-only t)
+  (cuts nil :type doubles :read-only t)
   (passed '() :type list :read-only t))
 
 (defun number-vector (numbers)
-  (coerce numbers 'numbers))
+  (coerce numbers 'doubles))
 
 (defun viewpoint-frame (viewpoint)
   "Return the FRAME of a canvas for VIEWPOINT."
@@ -55,7 +53,7 @@ begin."
 (defun ray-beginning (x y z dx dy dz cuts)
   "Return how far (m) along the ray from X Y Z in the direction DX DY DZ all the faces CUTS are
 passed; beyond sight if that is nowhere."
-  (declare (double-float x y z dx dy dz) (type numbers cuts))
+  (declare (double-float x y z dx dy dz) (type doubles cuts))
   (let ((start 0d0))
     (declare (double-float start))
     (loop for i of-type fixnum from 0 below (length cuts) by 4
@@ -72,13 +70,13 @@ passed; beyond sight if that is nowhere."
   "Write the ray through the point COLUMN, ROW (in pixels from the upper left) of CANVAS into RAYS
 as the one with number INDEX.  Return true if it can meet anything; else it is a short one in the
 sky."
-  (declare (double-float column row) (type numbers rays) (fixnum index)
+  (declare (double-float column row) (type doubles rays) (fixnum index)
            (optimize speed (safety 1)))
   (let* ((frame (canvas-frame canvas))
          (left (- 1 (/ (* 2 column) (canvas-width canvas))))
          (up (- 1 (/ (* 2 row) (canvas-height canvas))))
          (flat (canvas-flat canvas)))
-    (declare (type numbers frame) (double-float left up))
+    (declare (type doubles frame) (double-float left up))
     (flet ((aside (axis)
              (+ (* left (aref frame (+ 6 axis))) (* up (aref frame (+ 9 axis)))))
            (forward (axis) (aref frame (+ 3 axis)))
@@ -111,7 +109,7 @@ sky."
   "Return the bodies and the hits of RAYS.  One that begins in the ground meets nothing."
   (multiple-value-bind (bodies hits)
       (bullet:cast-rays (canvas-world canvas) rays :passed (canvas-passed canvas))
-    (declare (simple-vector bodies) (type numbers hits))
+    (declare (simple-vector bodies) (type doubles hits))
     (loop for body across bodies
           for index of-type fixnum from 0
           do (when (and body
@@ -122,7 +120,7 @@ sky."
 
 (defun light-distance (x y z light walls)
   "Return how far (m) the light at the point X Y Z is, in the direction LIGHT, within WALLS."
-  (declare (double-float x y z) (type numbers light walls) (optimize speed (safety 1)))
+  (declare (double-float x y z) (type doubles light walls) (optimize speed (safety 1)))
   (let ((distance 10d0))
     (declare (double-float distance))
     (loop for i of-type fixnum from 0 below (length walls) by 4
@@ -135,7 +133,7 @@ sky."
 
 (defun write-light-ray (hits index light walls rays)
   "Write the ray from the point that ray INDEX met to the light into RAYS."
-  (declare (type numbers hits light walls rays) (fixnum index) (optimize speed (safety 1)))
+  (declare (type doubles hits light walls rays) (fixnum index) (optimize speed (safety 1)))
   (let ((hit (* 7 index)) (ray (* 6 index)))
     (declare (fixnum hit ray))
     (dotimes (axis 3)
@@ -163,7 +161,7 @@ sky."
 (defun write-color (canvas body hits index lit colors)
   "Write red, green and blue, 0 to 1, of the point on BODY that ray INDEX met into COLORS; LIT says
 whether the light gets there."
-  (declare (type numbers hits colors) (fixnum index) (optimize speed (safety 1)))
+  (declare (type doubles hits colors) (fixnum index) (optimize speed (safety 1)))
   (let* ((start (* 7 index))
          (light (number-vector *light*))
          (x (aref hits start)) (y (aref hits (+ start 1))) (z (aref hits (+ start 2)))
@@ -178,7 +176,7 @@ whether the light gets there."
                    1d0))
          (brightness (* tile (+ ambient (if lit (* 0.48d0 facing) 0d0))))
          (own (gethash body (canvas-colors canvas))))
-    (declare (type numbers light own) (fixnum start))
+    (declare (type doubles light own) (fixnum start))
     (dotimes (part 3)
       (setf (aref colors (+ (* 3 index) part))
             (min 1d0 (* brightness (aref own part)))))))
@@ -202,7 +200,7 @@ column and row (pixels, double floats) of the point with a number."
 (defun edge-pixels (canvas colors)
   "Return the list of the numbers of those pixels of CANVAS whose COLORS differ much from those of a
 neighbour."
-  (declare (type numbers colors) (optimize speed (safety 1)))
+  (declare (type doubles colors) (optimize speed (safety 1)))
   (let ((width (canvas-width canvas)) (height (canvas-height canvas))
         (contrast *edge-contrast*))
     (declare (type (unsigned-byte 16) width height) (double-float contrast))
@@ -227,7 +225,7 @@ neighbour."
 
 (defun refine-edges (canvas colors)
   "Replace those of COLORS, one a pixel of CANVAS, that are on an edge by the mean of four rays."
-  (declare (type numbers colors))
+  (declare (type doubles colors))
   (let* ((edges (coerce (edge-pixels canvas colors) 'simple-vector))
          (finer (cast-colors canvas (* 4 (length edges))
                              (lambda (number)
@@ -236,7 +234,7 @@ neighbour."
                                      (floor (svref edges edge) (canvas-width canvas))
                                    (destructuring-bind (x y) (svref *finer-points* point)
                                      (values (+ column x) (+ row y)))))))))
-    (declare (type numbers finer))
+    (declare (type doubles finer))
     (loop for index across edges
           for start from 0 by 12
           do (dotimes (part 3)
@@ -254,21 +252,21 @@ neighbour."
     (map 'octets (lambda (part) (floor (* 255.99d0 (the double-float part))))
          (refine-edges canvas colors))))
 
-(defun body-colors (solids)
-  "Return a table of the colours of the bodies to which SOLIDS belong."
+(defun body-colors (chunks)
+  "Return a table of the colours of the bodies to which CHUNKS belong."
   (let ((colors (make-hash-table :test #'eq)))
-    (dolist (solid solids colors)
-      (setf (gethash (solid-body solid) colors) (number-vector (solid-color solid))))))
+    (dolist (chunk chunks colors)
+      (setf (gethash (chunk-body chunk) colors) (number-vector (chunk-color chunk))))))
 
-(defun picture-octets (projection solids viewpoint width height &key passed)
-  "Return the octets of the PNG file with what is seen of PROJECTION, with SOLIDS, from VIEWPOINT.
+(defun picture-octets (projection chunks viewpoint width height &key passed)
+  "Return the octets of the PNG file with what is seen of PROJECTION, with CHUNKS, from VIEWPOINT.
 PASSED is a list of bodies that are not shown."
-  (let ((walls (enclosing-faces solids)))
+  (let ((walls (enclosing-faces chunks)))
     (png-octets (canvas-pixels
                  (make-canvas :world (projection-world projection)
                               :frame (viewpoint-frame viewpoint)
                               :flat (viewpoint-flat viewpoint) :width width :height height
-                              :colors (body-colors solids)
+                              :colors (body-colors chunks)
                               :walls (number-vector (apply #'append walls))
                               :cuts (number-vector
                                      (apply #'append

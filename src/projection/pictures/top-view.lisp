@@ -1,6 +1,6 @@
 ;;;; The top view as SVG: outlines of everything, seen from above, with names.
 ;;;;
-;;;; Solids are drawn from the lowest to the highest.  Items are drawn once more on top of all as
+;;;; Chunks are drawn from the lowest to the highest.  Items are drawn once more on top of all as
 ;;;; dashed outlines, so that one sees those that are under or in something.  The lines of the grid
 ;;;; are one metre apart.  The robot has an arrow to where its base points.
 
@@ -9,34 +9,17 @@
 (defparameter *margin* 0.25d0
   "The space (m) around what a top view shows.")
 
-(defun left-turn (a b c)
-  "Return twice the area of the triangle of the points A, B, C, negative if it turns right."
-  (- (* (- (first b) (first a)) (- (second c) (second a)))
-     (* (- (second b) (second a)) (- (first c) (first a)))))
+(defun chunk-outline (chunk)
+  "Return the corners of the outline of CHUNK as seen from above, lists of x and y (m)."
+  (loop for (x y) on (coerce (planar-hull (loop for corner in (chunk-corners chunk)
+                                                collect (cons (pose-x corner) (pose-y corner))))
+                             'list)
+        by #'cddr
+        collect (list x y)))
 
-(defun convex-outline (points)
-  "Return the corners of the convex hull of POINTS, lists of x and y, counter-clockwise."
-  (flet ((before-p (a b)
-           (or (< (first a) (first b))
-               (and (= (first a) (first b)) (< (second a) (second b)))))
-         (chain (points)
-           (let ((chain '()))
-             (dolist (point points (reverse (rest chain)))
-               (loop while (and (rest chain)
-                                (<= (left-turn (second chain) (first chain) point) 1d-12))
-                     do (pop chain))
-               (push point chain)))))
-    (let ((sorted (sort (copy-list points) #'before-p)))
-      (append (chain sorted) (chain (reverse sorted))))))
-
-(defun solid-outline (solid)
-  "Return the corners of the outline of SOLID as seen from above, lists of x and y (m)."
-  (convex-outline (loop for corner in (solid-corners solid)
-                        collect (list (pose-x corner) (pose-y corner)))))
-
-(defun solid-top (solid)
-  "Return the height (m) of the highest corner of SOLID."
-  (third (nth-value 1 (corners-bounds (solid-corners solid)))))
+(defun chunk-top (chunk)
+  "Return the height (m) of the highest corner of CHUNK."
+  (third (nth-value 1 (corners-bounds (chunk-corners chunk)))))
 
 (defun color-text (color &optional (factor 1))
   (format nil "#~(~{~2,'0x~}~)"
@@ -97,16 +80,16 @@
       (loop for y from (ceiling y0) to (floor y1)
             do (draw-text sheet (list (+ x0 inside) y) (format nil "~d" y) :size 11)))))
 
-(defun draw-solid (sheet solid)
-  (draw-polygon sheet (solid-outline solid)
+(defun draw-chunk (sheet chunk)
+  (draw-polygon sheet (chunk-outline chunk)
                 (format nil "fill=\"~a\" fill-opacity=\"~a\" stroke=\"~a\" stroke-width=\"1\""
-                        (color-text (solid-color solid))
-                        (if (eq (solid-role solid) :item) "1" "0.85")
-                        (color-text (solid-color solid) 0.6d0))))
+                        (color-text (chunk-color chunk))
+                        (if (eq (chunk-role chunk) :item) "1" "0.85")
+                        (color-text (chunk-color chunk) 0.6d0))))
 
-(defun outlines-middle (solids)
-  "Return the middle of the rectangle around SOLIDS as seen from above, a list of x and y (m)."
-  (multiple-value-bind (low high) (corners-bounds (mapcan #'solid-corners solids))
+(defun outlines-middle (chunks)
+  "Return the middle of the rectangle around CHUNKS as seen from above, a list of x and y (m)."
+  (multiple-value-bind (low high) (corners-bounds (mapcan #'chunk-corners chunks))
     (list (/ (+ (first low) (first high)) 2) (/ (+ (second low) (second high)) 2))))
 
 (defun draw-robot-arrow (sheet projection)
@@ -119,53 +102,53 @@
                              (at 0.22d0 -0.06d0))
                  "stroke=\"#223\" stroke-width=\"2\""))))
 
-(defun named-groups (solids role)
-  "Return the list of (name solid...) of those of SOLIDS that have ROLE, in their order."
+(defun named-groups (chunks role)
+  "Return the list of (name chunk...) of those of CHUNKS that have ROLE, in their order."
   (let ((groups '()))
-    (dolist (solid solids (mapcar (lambda (group) (cons (first group) (reverse (rest group))))
+    (dolist (chunk chunks (mapcar (lambda (group) (cons (first group) (reverse (rest group))))
                                   (reverse groups)))
-      (when (and (eq (solid-role solid) role) (solid-name solid) (not (wall-p solid)))
-        (let ((group (assoc (solid-name solid) groups)))
+      (when (and (eq (chunk-role chunk) role) (chunk-name chunk) (not (wall-p chunk)))
+        (let ((group (assoc (chunk-name chunk) groups)))
           (if group
-              (push solid (rest group))
-              (push (list (solid-name solid) solid) groups)))))))
+              (push chunk (rest group))
+              (push (list (chunk-name chunk) chunk) groups)))))))
 
-(defun draw-names (sheet projection solids)
+(defun draw-names (sheet projection chunks)
   (flet ((name-text (name) (string-downcase name)))
-    (loop for (name . group) in (named-groups solids :fixture)
+    (loop for (name . group) in (named-groups chunks :fixture)
           do (draw-text sheet (outlines-middle group) (name-text name) :size 12))
     (when (projection-robot projection)
       (draw-robot-arrow sheet projection))
-    (loop for (name . group) in (named-groups solids :item)
-          do (dolist (solid group)
-               (draw-polygon sheet (solid-outline solid)
+    (loop for (name . group) in (named-groups chunks :item)
+          do (dolist (chunk group)
+               (draw-polygon sheet (chunk-outline chunk)
                              (format nil "fill=\"none\" stroke=\"~a\" stroke-width=\"1\" ~
                                           stroke-dasharray=\"3 2\""
-                                     (color-text (solid-color solid) 0.7d0))))
+                                     (color-text (chunk-color chunk) 0.7d0))))
              (destructuring-bind (x y) (outlines-middle group)
                (draw-text sheet (list x (+ y (/ 14 (sheet-scale sheet)))) (name-text name))))))
 
-(defun top-view-bounds (solids)
-  "Return the corners of what a top view of SOLIDS shows: lists of x and y (m)."
+(defun top-view-bounds (chunks)
+  "Return the corners of what a top view of CHUNKS shows: lists of x and y (m)."
   (multiple-value-bind (low high)
-      (corners-bounds (or (mapcan #'solid-corners solids) (list (point-pose 0 0 0))))
+      (corners-bounds (or (mapcan #'chunk-corners chunks) (list (point-pose 0 0 0))))
     (values (list (- (first low) *margin*) (- (second low) *margin*))
             (list (+ (first high) *margin*) (+ (second high) *margin*)))))
 
-(defun below-ceilings (solids)
-  "Return SOLIDS without the walls that lie above everything else."
+(defun below-ceilings (chunks)
+  "Return CHUNKS without the walls that lie above everything else."
   (let ((top (make-pose 0 0 1000)))
-    (remove-if (lambda (solid)
-                 (and (wall-p solid)
+    (remove-if (lambda (chunk)
+                 (and (wall-p chunk)
                       (loop for face in (near-faces (enclosing-faces
-                                                     (cons solid (contents solids)))
+                                                     (cons chunk (contents chunks)))
                                                     top)
                             thereis (< (third face) -0.7d0))))
-               solids)))
+               chunks)))
 
-(defun draw-top-view (projection solids width stream)
-  "Write the top view of PROJECTION, with SOLIDS, as an SVG file WIDTH pixels wide to STREAM."
-  (multiple-value-bind (low high) (top-view-bounds solids)
+(defun draw-top-view (projection chunks width stream)
+  "Write the top view of PROJECTION, with CHUNKS, as an SVG file WIDTH pixels wide to STREAM."
+  (multiple-value-bind (low high) (top-view-bounds chunks)
     (let* ((scale (/ width (- (first high) (first low))))
            (height (ceiling (* scale (- (second high) (second low)))))
            (sheet (make-sheet :stream stream :scale (float scale 1d0)
@@ -178,8 +161,8 @@
               (escaped-text (string-downcase (scene-name (projection-scene projection))))
               (simulated-seconds projection))
       (draw-grid sheet low high)
-      (dolist (solid (stable-sort (below-ceilings solids) #'< :key #'solid-top))
-        (draw-solid sheet solid))
-      (draw-names sheet projection solids)
+      (dolist (chunk (stable-sort (below-ceilings chunks) #'< :key #'chunk-top))
+        (draw-chunk sheet chunk))
+      (draw-names sheet projection chunks)
       (draw-grid-numbers sheet low high)
       (format stream "</svg>~%"))))

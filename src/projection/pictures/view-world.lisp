@@ -16,23 +16,23 @@
              (picture-problem "The ~a of a picture is ~s where a number of pixels from 1 to ~d was ~
                                expected" thing size *picture-limit*))))
 
-(defun picture-viewpoint (projection solids view camera width height)
+(defun picture-viewpoint (projection chunks view camera width height)
   "Return the viewpoint for VIEW and CAMERA, the arguments of VIEW-WORLD."
   (cond ((pose-p camera) (pose-viewpoint camera width height))
         ((eq view :camera) (robot-viewpoint projection))
-        ((eq view :top) (multiple-value-call #'downward-viewpoint (top-view-bounds solids)))
-        (t (scene-viewpoint solids width height))))
+        ((eq view :top) (multiple-value-call #'downward-viewpoint (top-view-bounds chunks)))
+        (t (scene-viewpoint chunks width height))))
 
 (defun viewpoint-height (viewpoint width)
   "Return the height of a picture from VIEWPOINT, WIDTH pixels wide, whose pixels are square."
   (max 1 (round (* width (/ (viewpoint-upwards viewpoint) (viewpoint-across viewpoint))))))
 
 (defun png-picture (projection view camera width height)
-  (let* ((solids (projection-solids projection))
-         (shown (remove :ground solids :key #'solid-role))
+  (let* ((chunks (projection-chunks projection))
+         (shown (remove :ground chunks :key #'chunk-role))
          (height (or height (round width 4/3)))
          (viewpoint (picture-viewpoint projection shown view camera width height)))
-    (picture-octets projection solids viewpoint width
+    (picture-octets projection chunks viewpoint width
                     (if (and (member view '(:top :camera)) (null camera))
                         (viewpoint-height viewpoint width)
                         height)
@@ -43,7 +43,7 @@
   (sb-ext:string-to-octets
    (with-output-to-string (stream)
      (draw-top-view projection
-                    (remove :ground (projection-solids projection) :key #'solid-role)
+                    (remove :ground (projection-chunks projection) :key #'chunk-role)
                     width stream))
    :external-format :utf-8))
 

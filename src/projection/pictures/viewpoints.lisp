@@ -49,10 +49,10 @@ the origin, sees all CORNERS."
           maximize (- (max (/ (abs (pose-y local)) across) (/ (abs (pose-z local)) upwards))
                       (pose-x local)))))
 
-(defun scene-viewpoint (solids width height)
-  "Return the viewpoint from which a picture of WIDTH and HEIGHT pixels shows all SOLIDS but ground
+(defun scene-viewpoint (chunks width height)
+  "Return the viewpoint from which a picture of WIDTH and HEIGHT pixels shows all CHUNKS but ground
 and walls, from outside."
-  (let ((corners (mapcan #'solid-corners (contents solids))))
+  (let ((corners (mapcan #'chunk-corners (contents chunks))))
     (multiple-value-bind (low high) (corners-bounds (or corners (list (point-pose 0 0 0))))
       (destructuring-bind (x y z) (mapcar (lambda (a b) (/ (+ a b) 2)) low high)
         (let* ((turn (make-pose 0 0 0 :yaw (+ *viewing-azimuth* pi)

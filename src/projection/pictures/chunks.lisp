@@ -1,13 +1,13 @@
-;;;; What is drawn: the bodies of a world as convex SOLIDS, with their colours.
+;;;; What is drawn: the bodies of a world as convex CHUNKS, with their colours.
 ;;;;
 ;;;; A picture shows the collision shapes, for they are what the physics knows.  A body with a
-;;;; compound shape is several solids.  A solid belongs to an item, the robot, a fixture or the
+;;;; compound shape is several chunks.  A chunk belongs to an item, the robot, a fixture or the
 ;;;; ground: its ROLE.  Large thin boxes are WALLS (and ceilings): pictures from outside look
 ;;;; through those on the near side.
 
 (in-package #:discrepancy-finder.projection)
 
-(defstruct (solid (:copier nil))
+(defstruct (chunk (:copier nil))
   "A convex part of BODY: SHAPE, in the notation of the bullet layer, at POSE in the world.  COLOR
 is a list of three numbers from 0 to 1; NAME is that of the part of the scene, a keyword or NIL."
   (body nil :read-only t)
@@ -61,17 +61,17 @@ is a list of three numbers from 0 to 1; NAME is that of the part of the scene, a
               *item-colors*))
         (t (rest (assoc role *role-colors*)))))
 
-(defun shape-solids (body role name color pose shape)
+(defun shape-chunks (body role name color pose shape)
   (if (eq (first shape) :compound)
       (loop for (part-pose part) in (rest shape)
-            append (shape-solids body role name color (compose pose part-pose) part))
-      (list (make-solid :body body :role role :name name :color color :pose pose :shape shape))))
+            append (shape-chunks body role name color (compose pose part-pose) part))
+      (list (make-chunk :body body :role role :name name :color color :pose pose :shape shape))))
 
-(defun projection-solids (projection)
-  "Return the list of the solids of PROJECTION, as it is now, in the order of its bodies."
+(defun projection-chunks (projection)
+  "Return the list of the chunks of PROJECTION, as it is now, in the order of its bodies."
   (loop for body in (bullet:world-bodies (projection-world projection))
         for role = (body-role projection body)
-        append (shape-solids body role
+        append (shape-chunks body role
                              (if (eq role :item)
                                  (car (rassoc body (projection-items projection)))
                                  (body-owner body))
@@ -82,7 +82,7 @@ is a list of three numbers from 0 to 1; NAME is that of the part of the scene, a
 
 (defparameter *corners-of-a-circle* 24)
 
-(defun circle-points (radius z)
+(defun rim-points (radius z)
   (loop for i below *corners-of-a-circle*
         for angle = (* 2 pi (/ i *corners-of-a-circle*))
         collect (point-pose (* radius (cos angle)) (* radius (sin angle)) z)))
@@ -98,19 +98,19 @@ round."
                                  append (loop for sz in '(-1/2 1/2)
                                               collect (point-pose (* sx x) (* sy y) (* sz z)))))))
       (:cylinder (destructuring-bind (radius height) numbers
-                   (append (circle-points radius (- (/ height 2)))
-                           (circle-points radius (/ height 2)))))
+                   (append (rim-points radius (- (/ height 2)))
+                           (rim-points radius (/ height 2)))))
       (:sphere (destructuring-bind (radius) numbers
                  (loop for latitude from -4 to 4
                        for angle = (* pi latitude 1/8)
-                       append (circle-points (* radius (cos angle)) (* radius (sin angle))))))
+                       append (rim-points (* radius (cos angle)) (* radius (sin angle))))))
       (:hull (loop for (x y z) in numbers collect (point-pose x y z))))))
 
-(defun solid-corners (solid)
-  "Return corners of SOLID as a list of poses in the world; none if it has no end."
-  (unless (eq (first (solid-shape solid)) :plane)
-    (loop for corner in (shape-corners (solid-shape solid))
-          collect (compose (solid-pose solid) corner))))
+(defun chunk-corners (chunk)
+  "Return corners of CHUNK as a list of poses in the world; none if it has no end."
+  (unless (eq (first (chunk-shape chunk)) :plane)
+    (loop for corner in (shape-corners (chunk-shape chunk))
+          collect (compose (chunk-pose chunk) corner))))
 
 (defun corners-bounds (corners)
   "Return the lists of the least and of the largest coordinates of CORNERS, poses."
@@ -127,18 +127,18 @@ round."
 (defparameter *wall-length* 1.5d0
   "A wall is at least so long, and so high (m).")
 
-(defun wall-p (solid)
-  "Return true if SOLID is a large thin box that belongs to a fixture."
-  (and (eq (solid-role solid) :fixture)
-       (eq (first (solid-shape solid)) :box)
-       (destructuring-bind (thin middle long) (sort (copy-list (rest (solid-shape solid))) #'<)
+(defun wall-p (chunk)
+  "Return true if CHUNK is a large thin box that belongs to a fixture."
+  (and (eq (chunk-role chunk) :fixture)
+       (eq (first (chunk-shape chunk)) :box)
+       (destructuring-bind (thin middle long) (sort (copy-list (rest (chunk-shape chunk))) #'<)
          (declare (ignore long))
          (and (<= thin *wall-thickness*) (>= middle *wall-length*)))))
 
-(defun contents (solids)
-  "Return those of SOLIDS that stand around: not the ground and the walls, unless there is nothing
+(defun contents (chunks)
+  "Return those of CHUNKS that stand around: not the ground and the walls, unless there is nothing
 else."
-  (let ((bounded (remove :ground solids :key #'solid-role)))
+  (let ((bounded (remove :ground chunks :key #'chunk-role)))
     (or (remove-if #'wall-p bounded) bounded)))
 
 (defun along (normal point)
@@ -149,9 +149,9 @@ else."
 (defun inner-faces (wall)
   "Return the two faces of WALL as lists (nx ny nz d): the points p with n.p >= d are on the outside
 of the wall there."
-  (let* ((sizes (rest (solid-shape wall)))
+  (let* ((sizes (rest (chunk-shape wall)))
          (axis (position (reduce #'min sizes) sizes))
-         (pose (solid-pose wall))
+         (pose (chunk-pose wall))
          (tip (compose pose (point-pose (if (= axis 0) 1 0) (if (= axis 1) 1 0)
                                         (if (= axis 2) 1 0))))
          (normal (list (- (pose-x tip) (pose-x pose)) (- (pose-y tip) (pose-y pose))
@@ -160,15 +160,15 @@ of the wall there."
           for outwards = (mapcar (lambda (part) (* side part)) normal)
           collect (append outwards (list (+ (along outwards pose) (/ (nth axis sizes) 2)))))))
 
-(defun enclosing-faces (solids)
-  "Return the inner faces, as INNER-FACES does, of those walls among SOLIDS that have all contents
+(defun enclosing-faces (chunks)
+  "Return the inner faces, as INNER-FACES does, of those walls among CHUNKS that have all contents
 on one side."
-  (let ((contents (contents solids)))
+  (let ((contents (contents chunks)))
     (unless (some #'wall-p contents)
-      (loop for wall in (remove-if-not #'wall-p solids)
+      (loop for wall in (remove-if-not #'wall-p chunks)
             append (loop for face in (inner-faces wall)
-                         when (every (lambda (solid)
-                                       (> (along (subseq face 0 3) (solid-pose solid))
+                         when (every (lambda (chunk)
+                                       (> (along (subseq face 0 3) (chunk-pose chunk))
                                           (- (fourth face) 1d-3)))
                                      contents)
                            collect face)))))
