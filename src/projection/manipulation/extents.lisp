@@ -9,7 +9,7 @@
   (destructuring-bind ((ax ay az) (bx by bz)) (list a b)
     (list (- (* ay bz) (* az by)) (- (* az bx) (* ax bz)) (- (* ax by) (* ay bx)))))
 
-(defun scaled (vector factor)
+(defun stretched (vector factor)
   (mapcar (lambda (number) (* number factor)) vector))
 
 (defun unit (vector)
