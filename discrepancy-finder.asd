@@ -107,7 +107,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
                (:file "shapes") (:file "bodies") (:file "attachments") (:file "joints")
                (:file "queries") (:file "contacts") (:file "rays") (:file "mechanisms")
-               (:file "inverse-kinematics") (:file "motion-runs")))
+               (:file "inverse-kinematics") (:file "motion-runs") (:file "clearances")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
