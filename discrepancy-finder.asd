@@ -288,12 +288,17 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "terrain") (:file "footing") (:file "base-paths")
                              (:file "surroundings") (:file "base-motion") (:file "going")))
                (:module "perception" :serial t
-                :components ((:file "surface") (:file "detecting")))
+                :components ((:file "hulls") (:file "surface") (:file "seeing")
+                             (:file "places") (:file "detecting") (:file "looking")))
                (:module "manipulation" :serial t
                 :components ((:file "column-arm") (:file "extents") (:file "grasps")
                              (:file "fitting") (:file "arms") (:file "gripper") (:file "ways") (:file "smooth-ways")
                              (:file "reaching") (:file "picking") (:file "placing")
-                             (:file "containers") (:file "modules")))))
+                             (:file "containers") (:file "modules")))
+               (:module "actions" :serial t
+                :components ((:file "places") (:file "base-poses") (:file "moving")
+                             (:file "searching") (:file "environment") (:file "fetching")
+                             (:file "transporting") (:file "groundings")))))
 
 (asdf:defsystem "discrepancy-finder/statistics"
   :description "Distributions, regression, and rules that decide when there are enough samples."
@@ -384,7 +389,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "rays") (:file "mechanisms") (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
-                             (:file "manipulation") (:file "manipulation-kitchen")))
+                             (:file "seeing") (:file "manipulation")
+                             (:file "manipulation-kitchen") (:file "actions-symbolic")))
                (:module "statistics"
                 :serial t
                 :components ((:file "normal") (:file "distributions") (:file "least-squares")
