@@ -422,4 +422,4 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "evaluator")
                (:file "household") (:file "clingo") (:file "bounded") (:file "progression")
-               (:file "exploration") (:file "benchmarks")))
+               (:file "exploration") (:file "transport") (:file "benchmarks")))

@@ -11,6 +11,7 @@ same work without it.")
                     (#:plan #:discrepancy-finder.plan-language)
                     (#:ec #:discrepancy-finder.event-calculus)
                     (#:symbolic #:discrepancy-finder.symbolic-execution)
+                    (#:projection #:discrepancy-finder.projection)
                     (#:discrepancy #:discrepancy-finder.discrepancy)
                     (#:df #:discrepancy-finder))
   (:export
