@@ -40,7 +40,7 @@
 
 (plan:def-cram-function deliver (?object x y z)
   "Carry ?OBJECT to the table, place it at X, Y, Z, and go back to an arm's rest."
-  (stand-at -0.35 (- y 0.1) 0)
+  (stand-at -0.4 (- y 0.1) 0)
   (let ((?pose (geometry:make-pose x y z)))
     (plan:perform (plan:an action (type placing) (object ?object) (arm :left)
                            (target (plan:a location (pose ?pose))))))
