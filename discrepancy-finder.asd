@@ -105,7 +105,8 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
-               (:file "shapes") (:file "bodies") (:file "attachments") (:file "joints")
+               (:file "shapes") (:file "hulls") (:file "inertia") (:file "bodies")
+               (:file "attachments") (:file "joints")
                (:file "queries") (:file "contacts") (:file "rays") (:file "mechanisms")
                (:file "inverse-kinematics") (:file "motion-runs")))
 

@@ -1,6 +1,6 @@
 /* C API of the Bullet shim: rigid-body worlds for a caller that has no C++.
  *
- * A world is an opaque handle.  Shapes, bodies and attachments are ids inside of one world:
+ * Worlds and shapes are opaque handles.  Bodies, attachments and joints are ids inside of one world:
  * integers from 0, in the order of their making.  A function that makes something returns its id,
  * every other one DFB_OK or what its comment says; a negative result is one of the statuses below,
  * and then nothing was changed and no output was written.  Handles are checked at each entry, ids
@@ -26,13 +26,14 @@ extern "C" {
 #define DFB_API __attribute__((visibility("default")))
 
 typedef struct dfb_world dfb_world;
+typedef struct dfb_shape dfb_shape;
 
 enum dfb_status {
   DFB_OK = 0,
   DFB_BAD_WORLD = -1,       /* the handle is no open world */
   DFB_BAD_BODY = -2,        /* no body has this id, or two bodies are the same one */
-  DFB_BAD_SHAPE = -3,       /* no shape has this id, or it cannot be used here */
-  DFB_BAD_CONSTRAINT = -4,  /* no live attachment has this id */
+  DFB_BAD_SHAPE = -3,       /* the handle is no shape, or it cannot be used here */
+  DFB_BAD_CONSTRAINT = -4,  /* no live attachment or joint has this id */
   DFB_BAD_NUMBER = -5,      /* not finite, not positive, not of unit length */
   DFB_BAD_KIND = -6,        /* the kind of the body does not allow it */
   DFB_TOO_SMALL = -7,       /* the output has no room for the result */
@@ -53,18 +54,31 @@ DFB_API int dfb_world_delete(dfb_world *world);
 /* Advance the world by a number of time steps. */
 DFB_API int dfb_step(dfb_world *world, int steps);
 
-/* Shapes; the origin of a shape is the centre of mass of its body */
-/* Return a box with these full extents (m). */
-DFB_API int dfb_shape_box(dfb_world *world, double x, double y, double z);
-/* Return a sphere (m). */
-DFB_API int dfb_shape_sphere(dfb_world *world, double radius);
-/* Return a cylinder along z (m). */
-DFB_API int dfb_shape_cylinder(dfb_world *world, double radius, double height);
-/* Return the half-space of the points p with n.p <= d (m), n a unit vector. */
-DFB_API int dfb_shape_plane(dfb_world *world, double nx, double ny, double nz, double d);
-/* Return the union of count boxes, spheres and cylinders; seven numbers of poses for each. */
-DFB_API int dfb_shape_compound(dfb_world *world, int count, const int *children,
-                               const double *poses);
+/* Shapes: each function writes a new handle.  A shape may be used in any number of worlds and threads,
+ * and is freed when neither its handle nor a body needs it; its origin is that of the link frame. */
+/* Free the handle of a shape. */
+DFB_API int dfb_shape_delete(dfb_shape *shape);
+/* Make a box with these full extents (m). */
+DFB_API int dfb_shape_box(double x, double y, double z, dfb_shape **shape);
+/* Make a sphere (m). */
+DFB_API int dfb_shape_sphere(double radius, dfb_shape **shape);
+/* Make a cylinder along z (m). */
+DFB_API int dfb_shape_cylinder(double radius, double height, dfb_shape **shape);
+/* Make the half-space of the points p with n.p <= d (m), n a unit vector. */
+DFB_API int dfb_shape_plane(double nx, double ny, double nz, double d, dfb_shape **shape);
+/* Make the convex hull of 4 to 40 points of three numbers each (m), nowhere thinner than 1e-5 m. */
+DFB_API int dfb_shape_hull(int count, const double *points, dfb_shape **shape);
+/* Make the union of count shapes, none a plane or a union; seven numbers of poses for each. */
+DFB_API int dfb_shape_compound(int count, dfb_shape *const *children, const double *poses,
+                               dfb_shape **shape);
+
+/* Convex hulls */
+/* Choose at most most (4 to 40) of count points so that their convex hull leaves little of that of
+ * all out; write them, three numbers each, and return how many they are. */
+DFB_API int dfb_convex_hull(int count, const double *points, int most, double *corners);
+/* Write the moments of the convex hull of 4 to 40 points, 13 doubles: its volume (m^3), the
+ * integrals over it of x, y and z, and of their products, a 3 x 3 matrix. */
+DFB_API int dfb_hull_moments(int count, const double *points, double *moments);
 
 /* Bodies */
 /* Return a body whose link frame is at pose (7 doubles).  The numbers of mass count for a dynamic
@@ -73,7 +87,7 @@ DFB_API int dfb_shape_compound(dfb_world *world, int count, const int *children,
  * rolling friction (m), the restitution, and the linear and angular damping, which are the parts of
  * a velocity that are lost in a second; 5 in all.  The friction of a pair is the product of both
  * coefficients, and so is its restitution. */
-DFB_API int dfb_body_new(dfb_world *world, int shape, int kind, const double *pose,
+DFB_API int dfb_body_new(dfb_world *world, const dfb_shape *shape, int kind, const double *pose,
                          const double *mass, const double *material);
 /* Move a kinematic body: at the next step it has the velocity that takes it to this pose. */
 DFB_API int dfb_body_move(dfb_world *world, int body, double x, double y, double z, double qx,

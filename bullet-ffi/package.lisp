@@ -18,7 +18,7 @@ order give equal bits, in any thread or process, and queries change no later bit
    #:body-pose #:body-velocity #:move-body #:place-body
    #:wake #:allow-sleep #:asleep-p #:ignore-collision
    ;; shapes
-   #:convex-hull #:shape-volume #:shape-inertia
+   #:convex-hull #:shape-volume #:mass-properties #:principal-axes
    ;; attachments
    #:attachment #:attach #:detach #:attachments #:attachment-parent #:attachment-child
    #:attachment-live-p #:attachment-load #:attachment-lost-p #:attachment-utilization

@@ -27,11 +27,16 @@
 (defun handle-usable-p (handle)
   (and (handle-open handle) (eq (handle-session handle) **session**)))
 
+(defstruct (shape-handle (:include handle) (:constructor make-shape-handle (pointer session))
+                         (:copier nil)))
+
 (defun release (handle)
-  "Delete the foreign world of HANDLE unless it was deleted already."
+  "Delete the foreign world or shape of HANDLE unless it was deleted already."
   (when (and (handle-usable-p handle)
              (eq t (sb-ext:compare-and-swap (handle-open handle) t nil)))
-    (%world-delete (handle-pointer handle))))
+    (if (shape-handle-p handle)
+        (%shape-delete (handle-pointer handle))
+        (%world-delete (handle-pointer handle)))))
 
 (defstruct (world (:constructor %make-world (handle time-step)) (:copier nil))
   "A rigid-body world with gravity, bodies and attachments, which advances in equal time steps."

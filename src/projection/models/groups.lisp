@@ -36,18 +36,26 @@ SHAPE is NIL if no link has one; MASS (kg) and INERTIA (kg m^2, about the axes o
   "Return the mass (kg) of LINK, by *DENSITY* if it has a shape and its file gives none."
   (let ((shape (urdf-link-shape link)))
     (cond ((plusp (urdf-link-mass link)) (urdf-link-mass link))
-          (shape (* *density* (float (bullet:shape-volume shape) 1d0)))
+          (shape (* *density* (bullet:shape-volume shape)))
           (t 0d0))))
 
+(defun at-position (pose axes)
+  "Return the frame at the position of POSE with the orientation of AXES."
+  (quaternion-pose (pose-x pose) (pose-y pose) (pose-z pose)
+                   (pose-qx axes) (pose-qy axes) (pose-qz axes) (pose-qw axes)))
+
 (defun link-inertia (link)
-  "Return mass, principal moments and the pose of their axes for LINK; the moments are NIL if it has
-neither inertia nor shape."
-  (let ((mass (link-mass link)) (shape (urdf-link-shape link)))
-    (values mass
-            (cond ((urdf-link-inertia link))
-                  ((and shape (plusp mass)) (bullet:shape-inertia shape mass))
-                  ((plusp mass) (list 0d0 0d0 0d0)))
-            (urdf-link-inertial-pose link))))
+  "Return mass, principal moments and the pose of their axes for LINK.  What the file does not give
+is that of the evenly filled shape; the moments are 0 without one."
+  (let ((mass (link-mass link))
+        (shape (urdf-link-shape link))
+        (pose (urdf-link-inertial-pose link)))
+    (cond ((urdf-link-inertia link) (values mass (urdf-link-inertia link) pose))
+          ((and shape (plusp mass))
+           (multiple-value-bind (moments axes) (bullet:mass-properties shape mass)
+             (values mass moments
+                     (if (plusp (urdf-link-mass link)) (at-position pose axes) axes))))
+          (t (values mass (list 0d0 0d0 0d0) pose)))))
 
 (defun group-inertia (members)
   "Return mass, principal moments and the pose of their axes of MEMBERS, a list of (link . pose)."

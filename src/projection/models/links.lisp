@@ -149,7 +149,7 @@ axes, and a fault."
       (enter (children root "material")))
     table))
 
-(defun link-color (element colors)
+(defun link-color-in (element colors)
   "Return the colour of the link ELEMENT; COLORS is the COLOR-TABLE of its model."
   (dolist (visual (children element "visual"))
     (let* ((material (first (children visual "material")))
@@ -167,4 +167,4 @@ axes, and a fault."
     (multiple-value-bind (mass moments pose fault) (inertial element)
       (make-urdf-link :name name :line (xml-element-line element) :shape (link-shape element)
                       :mass mass :inertia moments :inertial-pose pose
-                      :visual-color (link-color element colors) :fault fault))))
+                      :visual-color (link-color-in element colors) :fault fault))))

@@ -1,18 +1,15 @@
 ;;;; Base motion: a path of the base as a motion in time.
 ;;;;
-;;;; A path is a list of places; from one to the next the base moves and turns at once.  The length of
-;;;; a way is that in m or the turn, taken as the length that is driven in the same time, whichever is
-;;;; more.  At a corner the base cuts across, no farther than BLEND and only where that is free, and
-;;;; drives so slowly that its acceleration stays within bounds; else it stops there.
-;;;; PATH-BASES is the entry point.
+;;;; A path is a list of places.  From one to the next the base moves and turns at once: straight in a
+;;;; space of x, y and yaw, in which a turn counts as the length that is driven in the same time.
+;;;; At a corner the base leaves the straight way for an arc, where that is free, and drives so
+;;;; slowly there that its acceleration stays within bounds; else it stops.  So a path is a list of
+;;;; STRETCHes, straight ones and arcs.  PATH-BASES is the entry point.
 
 (in-package #:discrepancy-finder.projection)
 
 (defparameter *blend* 0.15d0
   "The largest distance (m) from a corner of a path at which the base leaves the straight way.")
-
-(defconstant +blend-parts+ 12
-  "A corner that is cut is driven in so many straight parts.")
 
 (defstruct (gait (:constructor make-gait (speed acceleration deceleration turn-weight))
                  (:copier nil))
@@ -23,85 +20,101 @@ counts as a way of TURN-WEIGHT (m)."
   (deceleration 1d0 :type double-float :read-only t)
   (turn-weight 1d0 :type double-float :read-only t))
 
-(defun way-length (gait from to)
-  "Return the length (m) of the way from the place FROM to TO; their yaws are not taken modulo a
-turn."
-  (max (sqrt (+ (expt (- (first to) (first from)) 2) (expt (- (second to) (second from)) 2)))
-       (* (gait-turn-weight gait) (abs (- (third to) (third from))))))
+(defstruct (stretch (:constructor make-stretch (start direction length cap stop
+                                                &optional (side '(0d0 0d0 0d0)) (radius 0d0)))
+                    (:copier nil))
+  "A part of a path: it begins at START, a list of x, y and the weighted yaw, in the DIRECTION of a
+unit vector, and has LENGTH (m); an arc has its middle at RADIUS (m) in the direction SIDE.  On it
+the speed is CAP (m/s) at most, at its end 0 if STOP is true."
+  (start '() :type list :read-only t)
+  (direction '() :type list :read-only t)
+  (length 0d0 :type double-float :read-only t)
+  (cap 0d0 :type double-float :read-only t)
+  (stop nil :read-only t)
+  (side '() :type list :read-only t)
+  (radius 0d0 :type double-float :read-only t))
 
-(defun unwound (path)
-  "Return PATH with yaws that differ by less than half a turn from each place to the next."
+;;; Vectors are lists of three numbers.
+
+(defun minus (a b) (mapcar #'- a b))
+(defun dot (a b) (reduce #'+ (mapcar #'* a b)))
+(defun scaled (factor a) (mapcar (lambda (number) (* factor number)) a))
+(defun plus (a b) (mapcar #'+ a b))
+(defun norm (a) (sqrt (dot a a)))
+
+(defun stretch-point (stretch distance)
+  "Return the point, three values, of STRETCH at DISTANCE (m) from its start."
+  (declare (double-float distance))
+  (destructuring-bind ((x y w) (dx dy dw) (sx sy sw))
+      (list (stretch-start stretch) (stretch-direction stretch) (stretch-side stretch))
+    (declare (double-float x y w dx dy dw sx sy sw))
+    (let ((radius (stretch-radius stretch)))
+      (if (zerop radius)
+          (values (+ x (* distance dx)) (+ y (* distance dy)) (+ w (* distance dw)))
+          (let* ((angle (/ distance radius))
+                 (along (* radius (sin angle))) (aside (* radius (- 1 (cos angle)))))
+            (values (+ x (* along dx) (* aside sx)) (+ y (* along dy) (* aside sy))
+                    (+ w (* along dw) (* aside sw))))))))
+
+;;; Stretches
+
+(defun weighted-points (gait path)
+  "Return the points x, y, weighted yaw of the places of PATH, with yaws that differ by less than half
+a turn from each place to the next."
   (loop with yaw = (third (first path))
         for (x y next) in path
         do (incf yaw (short-turn (- next yaw)))
-        collect (list x y yaw)))
+        collect (list x y (* (gait-turn-weight gait) yaw))))
 
-(defun between (from to fraction)
-  "Return the place at FRACTION of the way between two places."
-  (mapcar (lambda (a b) (interpolate a b fraction)) from to))
+(defun corner-arc (gait from corner to free-p)
+  "Return the arc, a STRETCH, that leads around CORNER on the way from FROM to TO, and the distance
+from CORNER at which it begins; NIL if there is none that is free."
+  (let* ((in (minus corner from)) (out (minus to corner))
+         (before (norm in)) (after (norm out))
+         (in (scaled (/ before) in)) (out (scaled (/ after) out))
+         (angle (acos (max -1d0 (min 1d0 (dot in out)))))
+         (distance (min *blend* (/ before 2) (/ after 2)))
+         (radius (if (< 1d-6 angle (- pi 1d-3)) (/ distance (tan (/ angle 2))) 0d0)))
+    (when (> radius 0.01d0)
+      (let* ((across (minus out (scaled (dot in out) in)))
+             (arc (make-stretch (minus corner (scaled distance in)) in (* radius angle)
+                                (min (gait-speed gait)
+                                     (sqrt (* radius (min (gait-acceleration gait)
+                                                          (gait-deceleration gait)))))
+                                nil (scaled (/ (norm across)) across) radius)))
+        (and (loop for i from 1 below 8
+                   always (multiple-value-bind (x y w)
+                              (stretch-point arc (* (/ i 8) (stretch-length arc)))
+                            (funcall free-p (list x y (/ w (gait-turn-weight gait))))))
+             (values arc distance))))))
 
-;;; Corners
-
-(defun blended-corner (gait from corner to)
-  "Return a list of places that lead around CORNER on the way from FROM to TO."
-  (flet ((near (end)
-           (let ((length (way-length gait corner end)))
-             (between corner end (/ (min *blend* (/ length 2)) (max length 1d-9))))))
-    (let ((enter (near from)) (leave (near to)))
-      (loop for i from 0 to +blend-parts+
-            for fraction = (/ i (float +blend-parts+ 1d0))
-            collect (between (between enter corner fraction) (between corner leave fraction)
-                             fraction)))))
-
-(defun way-direction (gait from to)
-  "Return the vector, a list, from FROM to TO, with the turn as a length, by its own length; and that
-length (m)."
-  (let* ((vector (list (- (first to) (first from)) (- (second to) (second from))
-                       (* (gait-turn-weight gait) (- (third to) (third from)))))
-         (length (sqrt (reduce #'+ vector :key (lambda (part) (* part part))))))
-    (values (if (zerop length) vector (mapcar (lambda (part) (/ part length)) vector)) length)))
-
-(defun corner-speed (gait from corner to)
-  "Return the speed (m/s) at which the base may pass CORNER, where it changes its direction a bit."
-  (multiple-value-bind (before before-length) (way-direction gait from corner)
-    (multiple-value-bind (after after-length) (way-direction gait corner to)
-      (let ((change (sqrt (reduce #'+ (mapcar (lambda (a b) (expt (- a b) 2)) before after))))
-            (length (/ (+ before-length after-length) 2)))
-        (if (< change 1d-9)
-            (gait-speed gait)
-            (min (gait-speed gait)
-                 (sqrt (/ (* length (min (gait-acceleration gait) (gait-deceleration gait)))
-                          change))))))))
-
-(defun smooth-path (gait path free-p)
-  "Return the list of (place . speed) that leads along PATH: the speed (m/s) is that at which the
-base may be at most there.  FREE-P is a function that tells whether the base can be at a place."
-  (let ((result (list (cons (first path) 0d0))))
-    (loop for (from corner to) on path
+(defun path-stretches (gait path free-p)
+  "Return the list of the STRETCHes that lead along PATH."
+  (let ((points (remove-duplicates (weighted-points gait path) :test #'equal)) (stretches '())
+        (begin 0d0))
+    (loop for (from to after) on points
           while to
-          do (let ((blend (blended-corner gait from corner to)))
-               (if (every free-p blend)
-                   (loop for (before place after) on (cons (car (first result)) blend)
-                         while place
-                         do (push (cons place
-                                        (if after
-                                            (corner-speed gait before place after)
-                                            (gait-speed gait)))
-                                  result))
-                   (push (cons corner 0d0) result))))
-    (push (cons (first (last path)) 0d0) result)
-    (nreverse result)))
+          do (multiple-value-bind (arc distance)
+                 (and after (corner-arc gait from to after free-p))
+               (let* ((way (minus to from)) (length (norm way)) (distance (or distance 0d0))
+                      (direction (scaled (/ length) way)))
+                 (when (> (- length begin distance) 1d-9)
+                   (push (make-stretch (plus from (scaled begin direction)) direction
+                                       (- length begin distance) (gait-speed gait) (null arc))
+                         stretches))
+                 (when arc (push arc stretches))
+                 (setf begin distance))))
+    (nreverse stretches)))
 
 ;;; Time
 
-(defstruct (leg (:constructor make-leg (from to length entry peak rise cruise fall)) (:copier nil))
-  "A straight part of a path: the base has the speed ENTRY at first, reaches PEAK after RISE (s),
-keeps it for CRUISE and slows down for FALL."
-  (from nil :type list :read-only t)
-  (to nil :type list :read-only t)
-  (length 0d0 :type double-float :read-only t)
+(defstruct (leg (:constructor make-leg (stretch entry peak exit rise cruise fall)) (:copier nil))
+  "The motion along STRETCH: from the speed ENTRY (m/s) to PEAK in RISE (s), on for CRUISE, and to the
+speed EXIT in FALL."
+  (stretch nil :type stretch :read-only t)
   (entry 0d0 :type double-float :read-only t)
   (peak 0d0 :type double-float :read-only t)
+  (exit 0d0 :type double-float :read-only t)
   (rise 0d0 :type double-float :read-only t)
   (cruise 0d0 :type double-float :read-only t)
   (fall 0d0 :type double-float :read-only t))
@@ -109,86 +122,94 @@ keeps it for CRUISE and slows down for FALL."
 (defun leg-duration (leg)
   (+ (leg-rise leg) (leg-cruise leg) (leg-fall leg)))
 
-(defun leg-fraction (leg time deceleration acceleration)
-  "Return the part of LEG that is done at TIME after its beginning."
-  (let ((rise (leg-rise leg)) (left (- (leg-duration leg) time)))
-    (cond ((or (<= left 0) (zerop (leg-length leg))) 1d0)
+(defun leg-distance (gait leg time)
+  "Return how far (m) the base has got on LEG at TIME (s) after its beginning."
+  (declare (double-float time))
+  (let ((rise (leg-rise leg)) (left (- (leg-duration leg) time))
+        (length (stretch-length (leg-stretch leg))))
+    (cond ((<= left 0) length)
           ((< time rise)
-           (/ (* time (+ (leg-entry leg) (* 0.5d0 acceleration time))) (leg-length leg)))
+           (* time (+ (leg-entry leg) (* 0.5d0 (gait-acceleration gait) time))))
           ((< left (leg-fall leg))
-           (let ((exit (- (leg-peak leg) (* deceleration (leg-fall leg)))))
-             (- 1 (/ (* left (+ exit (* 0.5d0 deceleration left))) (leg-length leg)))))
-          (t (/ (+ (* rise (/ (+ (leg-entry leg) (leg-peak leg)) 2))
-                   (* (leg-peak leg) (- time rise)))
-                (leg-length leg))))))
+           (- length (* left (+ (leg-exit leg) (* 0.5d0 (gait-deceleration gait) left)))))
+          (t (+ (* rise (/ (+ (leg-entry leg) (leg-peak leg)) 2))
+                (* (leg-peak leg) (- time rise)))))))
 
-(defun path-legs (gait places)
-  "Return the list of the legs along PLACES, a list of (place . largest speed)."
-  (let* ((a (gait-acceleration gait)) (d (gait-deceleration gait))
-         (count (length places))
-         (places (coerce places 'simple-vector))
-         (lengths (make-array count :initial-element 0d0))
-         (speeds (map 'simple-vector #'cdr places)))
-    (loop for i from 1 below count
-          do (setf (svref lengths i)
-                   (way-length gait (car (svref places (1- i))) (car (svref places i)))))
-    (loop for i from 1 below count
-          do (setf (svref speeds i)
-                   (min (svref speeds i)
-                        (sqrt (+ (expt (svref speeds (1- i)) 2) (* 2 a (svref lengths i)))))))
-    (loop for i from (- count 2) downto 0
-          do (setf (svref speeds i)
-                   (min (svref speeds i)
-                        (sqrt (+ (expt (svref speeds (1+ i)) 2)
-                                 (* 2 d (svref lengths (1+ i))))))))
-    (loop for i from 1 below count
-          for length = (svref lengths i)
-          for entry = (svref speeds (1- i)) for exit = (svref speeds i)
+(defun junction-speeds (gait stretches)
+  "Return the list of the speeds (m/s) before, between and after STRETCHES."
+  (let ((speeds (append (list 0d0)
+                        (loop for (one next) on stretches
+                              collect (if (or (stretch-stop one) (null next))
+                                          0d0
+                                          (min (stretch-cap one) (stretch-cap next)))))))
+    (flet ((bounded (speeds lengths rate)
+             (loop for length in (cons 0d0 lengths)
+                   for limit in speeds
+                   for speed = limit then (min limit (sqrt (+ (* speed speed)
+                                                              (* 2 rate length))))
+                   collect speed)))
+      (let ((lengths (mapcar #'stretch-length stretches)))
+        (reverse (bounded (reverse (bounded speeds lengths (gait-acceleration gait)))
+                          (reverse lengths) (gait-deceleration gait)))))))
+
+(defun path-legs (gait stretches)
+  "Return the list of the LEGs of the motion along STRETCHES."
+  (let ((a (gait-acceleration gait)) (d (gait-deceleration gait)))
+    (loop for stretch in stretches
+          for (entry exit) on (junction-speeds gait stretches)
+          for length = (stretch-length stretch)
           for peak = (max entry exit
-                          (min (gait-speed gait)
+                          (min (stretch-cap stretch)
                                (sqrt (/ (+ (* 2 a d length) (* d entry entry) (* a exit exit))
                                         (+ a d)))))
-          for rise = (/ (- peak entry) a) for fall = (/ (- peak exit) d)
-          collect (make-leg (car (svref places (1- i))) (car (svref places i)) length entry peak
-                            rise
-                            (if (zerop peak)
-                                0d0
-                                (max 0d0 (/ (- length (* rise (/ (+ entry peak) 2))
-                                               (* fall (/ (+ peak exit) 2)))
-                                            peak)))
+          for rise = (/ (- peak entry) a)
+          for fall = (/ (- peak exit) d)
+          collect (make-leg stretch entry peak exit rise
+                            (max 0d0 (/ (- length (* rise (/ (+ entry peak) 2))
+                                           (* fall (/ (+ peak exit) 2)))
+                                        peak))
                             fall))))
 
-(defun call-with-places (function gait places)
-  "Call FUNCTION with the number of steps of the motion along PLACES, a list of (place . largest
-speed), and with a function that returns the place after the next step each time it is called."
-  (let* ((legs (path-legs gait places))
-         (duration (reduce #'+ legs :key #'leg-duration))
-         (steps (max 1 (ceiling (- (/ duration +time-step+) 1d-9))))
-         (begin 0d0) (step 0))
-    (funcall function steps
-             (lambda ()
-               (incf step)
-               (let ((time (* step (float +time-step+ 1d0))))
-                 (loop while (and (rest legs)
-                                  (>= time (+ begin (leg-duration (first legs)))))
-                       do (incf begin (leg-duration (pop legs))))
-                 (between (leg-from (first legs)) (leg-to (first legs))
-                          (leg-fraction (first legs) (- time begin) (gait-deceleration gait)
-                                        (gait-acceleration gait))))))))
+(defun put-pose (bases step pose)
+  "Put the numbers of POSE to the place of STEP in the vector BASES."
+  (declare (type doubles bases) (fixnum step))
+  (let ((i (* 7 step)))
+    (setf (aref bases i) (pose-x pose) (aref bases (+ i 1)) (pose-y pose)
+          (aref bases (+ i 2)) (pose-z pose) (aref bases (+ i 3)) (pose-qx pose)
+          (aref bases (+ i 4)) (pose-qy pose) (aref bases (+ i 5)) (pose-qz pose)
+          (aref bases (+ i 6)) (pose-qw pose))))
+
+(defun put-level-pose (bases step x y z yaw)
+  "Put the numbers of the upright pose at X, Y, Z to the place of STEP in the vector BASES."
+  (declare (type doubles bases) (fixnum step) (double-float x y z yaw))
+  (let ((i (* 7 step)) (half (/ yaw 2)))
+    (setf (aref bases i) x (aref bases (+ i 1)) y (aref bases (+ i 2)) z
+          (aref bases (+ i 3)) 0d0 (aref bases (+ i 4)) 0d0
+          (aref bases (+ i 5)) (sin half) (aref bases (+ i 6)) (cos half))))
 
 (defun path-bases (gait path terrain height free-p last)
   "Return the vector of the poses of the base, seven numbers each, after each step of the motion along
 PATH, a list of places, at HEIGHT (m) above the ground of TERRAIN; the last pose is LAST.  FREE-P is
-a function that tells whether the base can be at a place."
-  (call-with-places
-   (lambda (steps next)
-     (let ((bases (make-array (* 7 steps) :element-type 'double-float)))
-       (dotimes (step steps bases)
-         (let ((pose (destructuring-bind (x y yaw) (funcall next)
-                       (if (= step (1- steps))
-                           last
-                           (standing-pose terrain x y height yaw)))))
-           (loop for number in (pose-components pose)
-                 for i from (* 7 step)
-                 do (setf (aref bases i) number))))))
-   gait (smooth-path gait (unwound path) free-p)))
+a function that tells whether the base can be at a place.  The vector is empty if PATH has no
+length."
+  (let* ((legs (path-legs gait (path-stretches gait path free-p)))
+         (duration (reduce #'+ legs :key #'leg-duration))
+         (steps (values (ceiling (- (/ duration +time-step+) 1d-9))))
+         (bases (make-array (* 7 steps) :element-type 'double-float))
+         (weight (gait-turn-weight gait))
+         (begin 0d0))
+    (declare (double-float begin weight) (type doubles bases))
+    (loop for step of-type fixnum from 0 below (1- steps)
+          for time double-float = (* (1+ step) (float +time-step+ 1d0))
+          do (loop while (and (rest legs) (>= time (+ begin (leg-duration (first legs)))))
+                   do (incf begin (leg-duration (pop legs))))
+             (multiple-value-bind (x y w)
+                 (stretch-point (leg-stretch (first legs))
+                                (leg-distance gait (first legs) (- time begin)))
+               (if (level-at-p terrain x y)
+                   (put-level-pose bases step x y height (/ w weight))
+                   (put-pose bases step
+                             (standing-pose terrain x y height (/ w weight))))))
+    (when (plusp steps)
+      (put-pose bases (1- steps) last))
+    bases))

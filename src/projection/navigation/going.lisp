@@ -31,9 +31,8 @@ RUN-MOTION.  FREE-P is a function that tells whether the base can be at a place.
          (gait (base-gait projection))
          (last (destructuring-bind (x y yaw) (first (last path))
                  (standing-pose terrain x y (standing-height robot) yaw))))
-    (unless (zerop (reduce #'+ (loop for (from to) on (unwound path)
-                                     while to collect (way-length gait from to))))
-      (let ((bases (path-bases gait path terrain (standing-height robot) free-p last)))
+    (let ((bases (path-bases gait path terrain (standing-height robot) free-p last)))
+      (unless (zerop (length bases))
         (run-motion projection (/ (length bases) 7) :bases bases :watch watch :ignore ignore)))))
 
 (defun drive-base (projection goal)

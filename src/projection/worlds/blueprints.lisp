@@ -97,13 +97,13 @@ item."
   (let ((model (scene-part-model part)) (frames '()) (count 0)
         (numbers (make-hash-table :test #'equal)))
     (flet ((add (name joint)
-             (let* ((parent (and joint (gethash (urdf-joint-parent joint) numbers)))
-                    (parent-frame (and parent (nth (- count 1 parent) frames))))
+             (let ((parent (and joint (gethash (urdf-joint-parent joint) numbers))))
                (push (make-link-frame
                       :link (find-urdf-link model name) :joint joint :parent parent
                       :name (body-name-of part name)
                       :rest (if joint
-                                (compose (compose (link-frame-rest parent-frame)
+                                (compose (compose (link-frame-rest
+                                                   (nth (- count 1 parent) frames))
                                                   (urdf-joint-origin joint))
                                          (joint-motion joint (first-position part joint)))
                                 (identity-pose)))

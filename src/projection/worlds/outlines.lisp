@@ -134,7 +134,8 @@ YAW."
 (defun gap-along-edges (one other x y)
   "Return the largest distance by which an edge of the polygon ONE, moved by X, Y, separates it from
 the polygon OTHER; negative if none does."
-  (declare (type doubles one other) (type double-float x y) (optimize speed (safety 0)))
+  (declare (type doubles one other) (type double-float x y) (optimize speed (safety 1))
+           (sb-ext:muffle-conditions sb-ext:compiler-note))
   (let ((size (length one)) (gap -1d9))
     (declare (type double-float gap) (fixnum size))
     (loop for i of-type fixnum below size by 2
@@ -156,7 +157,8 @@ the polygon OTHER; negative if none does."
 (defun separation (a b &optional (x 0d0) (y 0d0))
   "Return a lower bound of the horizontal distance (m) of the pieces A, moved by X, Y, and B; it is
 negative just if their polygons overlap."
-  (declare (type double-float x y) (type piece a b) (optimize speed (safety 0)))
+  (declare (type double-float x y) (type piece a b) (optimize speed (safety 1))
+           (sb-ext:muffle-conditions sb-ext:compiler-note))
   (let* ((dx (- (piece-x b) (piece-x a) x)) (dy (- (piece-y b) (piece-y a) y))
          (far (- (sqrt (the (double-float 0d0) (+ (* dx dx) (* dy dy))))
                  (piece-radius a) (piece-radius b))))
