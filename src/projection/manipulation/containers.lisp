@@ -138,8 +138,8 @@ which that moves.")
 (defparameter *slip-distance* 0.02d0
   "A hand has slipped off a handle that lags behind it by more than this (m or rad).")
 
-(defun haul (projection arm container way distance)
-  "Move ARM along WAY, whose configurations are equally far apart, while the joint of CONTAINER
+(defun haul (projection container way distance)
+  "Move along WAY, whose configurations are equally far apart, while the joint of CONTAINER
 follows over DISTANCE.  Return NIL, or why it was not done, a string."
   (let* ((robot (projection-robot projection))
          (joint (container-joint container))
@@ -214,7 +214,7 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
     (follow projection arm (reach-way reach))
     (follow projection arm (reach-line reach) :watch :allow-hand :smoothly t)
     (grip projection arm)
-    (let ((problem (haul projection arm container (reach-leaving reach) distance)))
+    (let ((problem (haul projection container (reach-leaving reach) distance)))
       (open-gripper projection arm)
       (let ((moved (- (bullet:joint-position joint) before)))
         (plan:on-event
