@@ -21,7 +21,7 @@
 
 (def-cram-function take-from-the-workspace (?type ?arm)
   "Stand at the workspace, look for an object of ?TYPE on it, pick it up with ?ARM and return it."
-  (stand-at (make-pose -1.5 0.2 0 :yaw pi))
+  (stand-at (make-pose -1.4 0.2 0 :yaw pi))
   (let ((?place (make-pose -2.1 0 0.9)))
     (perform (a motion (type looking) (pose ?place)))
     (let ((?object (perform (a motion (type detecting) (object (an object (type ?type)))))))

@@ -1,9 +1,9 @@
 ;;;; The kitchen: a workspace over three drawers, a dining table 2 m away, a door sill between them.
 ;;;;
 ;;;; The room is 5 x 4 m; its middle is the origin.  The workspace stands at the wall x = -2.5 and
-;;;; ends at x = -1.9; its top is at 0.85 m.  Drawer 1 is at y = -0.6, drawer 2 at y = 0, drawer 3 at
-;;;; y = 0.6; closed, a drawer is inside from x = -2.32 to x = -1.92, and its floor is at 0.6 m.  The
-;;;; table begins at x = 0.1; its top is at 0.75 m.
+;;;; ends at x = -1.9; its top is at 0.85 m.  Drawer 1 is at y = -0.6, drawer 2 at y = 0, drawer 3
+;;;; at y = 0.6; closed, a drawer is inside from x = -2.32 to x = -1.92, and its floor is at 0.6 m.
+;;;; The table begins at x = 0.1; its top is at 0.75 m.
 ;;;;
 ;;;; This file is data: reading it evaluates nothing.  Lengths in m, angles in rad, times in s.
 
@@ -63,6 +63,6 @@
           (:head "head_pan_joint" "head_tilt_joint")
           (:camera "camera_link"))
   (:item bowl "bowl.urdf" (:at -2.1 -0.6 0.8835) (:material ceramic) (:grasps top))
-  (:item cereal "cereal.urdf" (:at -2.1 -0.2 0.962 1.5708) (:material cardboard))
+  (:item cereal "cereal.urdf" (:at -2.1 -0.2 0.962) (:material cardboard))
   (:item milk "milk.urdf" (:at -2.1 0.1 0.947) (:material cardboard))
   (:item spoon "spoon.urdf" (:at -2.12 0 0.6095 1.5708) (:material steel)))

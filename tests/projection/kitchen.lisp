@@ -85,8 +85,9 @@ anything penetrates then, and where they are."
            (flet ((angle (number) (drawn "fall" index (+ draw number) -3 3)))
              (geometry:make-pose (+ x (drawn "fall" index draw -0.1 0.1)) y z
                                  :roll (angle 1) :pitch (angle 2) :yaw (angle 3)))))
-    (with-kitchen (projection :poses (list :bowl (pose 0 -2.2 -0.6 1.1) :cereal (pose 10 0.5 -0.4 1)
-                                           :milk (pose 20 0.5 0.4 1) :spoon (pose 30 0 -1.2 0.5)))
+    (with-kitchen (projection
+                   :poses (list :bowl (pose 0 -2.2 -0.6 1.1) :cereal (pose 10 0.5 -0.4 1)
+                                :milk (pose 20 0.5 0.4 1) :spoon (pose 30 0 -1.2 0.5)))
       (list (projection:settle projection :limit 3)
             (projection:interpenetration projection)
             (item-places projection)))))
@@ -100,7 +101,7 @@ anything penetrates then, and where they are."
            (is (member (second (assoc :milk places)) '(:table :floor)))))
 
 (defun slide (drawer x y speed)
-  "Put the spoon into DRAWER, 1 to 3, at X from its back and Y from its middle (m), open it with SPEED
+  "Put the spoon into DRAWER, 1 to 3, at X from its back and Y from its middle (m), open it at SPEED
 (m/s) and close it.  Return how far the drawer and the spoon went out and back, and if all rest."
   (let ((name (format nil "drawer_~d_joint" drawer)))
     (with-kitchen (projection
@@ -125,8 +126,8 @@ anything penetrates then, and where they are."
 (test a-drawer-takes-its-contents-along
   (loop for index below (if *long* 60 6)
         for (((nil spoon0) (drawer1 spoon1) (drawer2 spoon2)) rests)
-          = (slide (1+ (mod index 3)) (drawn "slide" index 0 0.1 0.3) (drawn "slide" index 1 -0.1 0.1)
-                   (drawn "slide" index 2 0.1 0.5))
+          = (slide (1+ (mod index 3)) (drawn "slide" index 0 0.1 0.3)
+                   (drawn "slide" index 1 -0.1 0.1) (drawn "slide" index 2 0.1 0.5))
         do (is (nearly 0.4 drawer1 1d-3))
            (is (nearly 0 drawer2 1d-3))
            (is (nearly 0.4 (- spoon1 spoon0) 0.02))
