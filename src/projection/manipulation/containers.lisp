@@ -21,10 +21,6 @@ the link HANDLE of the model."
 
 ;;; Which one
 
-(defun plain-name (name)
-  "Return NAME, a symbol or string, in lower case with _ for -."
-  (substitute #\_ #\- (string-downcase name)))
-
 (defun name-means-p (name joint)
   "Return true if NAME is that of JOINT or of the link that it moves, give or take an ending."
   (let ((name (plain-name name)))
