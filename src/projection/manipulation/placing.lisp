@@ -109,6 +109,19 @@ when it is parked or in front of the robot; NIL if there are none."
                         (when (free-p projection arm positions)
                           (return-from carrying-positions positions)))))))
 
+(defun joints-of-arm (projection arm)
+  "Return the list of the positions (m or rad) of the joints of ARM."
+  (loop for joint in (arm-joints arm)
+        collect (aref (joint-positions (projection-robot projection)) joint)))
+
+(defun parked-p (projection arm)
+  "Return true if ARM is where PARK-ARM has left it, or would leave it with an empty hand."
+  (let ((positions (joints-of-arm projection arm)))
+    (or (equal positions (getf (projection-memory projection) arm))
+        (and (null (held-item projection (arm-name arm)))
+             (every (lambda (position parked) (< (abs (- position parked)) 1d-3))
+                    positions (arm-parked arm))))))
+
 (defun park-arm (projection arm)
   "Take ARM out of the way."
   (let* ((goal (or (and (held-item projection (arm-name arm))
@@ -116,7 +129,8 @@ when it is parked or in front of the robot; NIL if there are none."
                    (parked-positions-of projection arm)))
          (start (joint-positions (projection-robot projection)))
          (way (plan-way projection arm start goal)))
-    (follow projection arm (or way (list goal)))))
+    (follow projection arm (or way (list goal)))
+    (setf (getf (projection-memory projection) arm) (joints-of-arm projection arm))))
 
 (defun park-arms (projection designator)
   "Take the arms that DESIGNATOR, an action, names out of the way, or all arms."
