@@ -19,12 +19,13 @@
   (list* :robot (geometry:make-pose x y 0 :yaw yaw) poses))
 
 (defun call-in-kitchen (function poses &rest options)
-  "Return what FUNCTION returns, called with a projection of the kitchen with POSES, settled."
+  "Return what FUNCTION returns, called with a projection of the kitchen with POSES, settled; NIL and
+the plan failure if it signals one."
   (let ((projection (apply #'projection:make-projection (manipulation-scene) :poses poses
                            options)))
-    (unwind-protect (progn (perform-in projection (parking))
-                           (projection:settle projection)
-                           (funcall function projection))
+    (unwind-protect (progn (projection:settle projection)
+                           (handler-case (funcall function projection)
+                             (plan:plan-failure (failure) (values nil failure))))
       (projection:close-projection projection))))
 
 (defun parking ()
@@ -68,22 +69,72 @@ far (m) it is from there."
                             (expt (- (geometry:pose-z pose) z) 2))))))))
    poses))
 
+(defun check-picked-up-and-placed (item poses x y z)
+  (multiple-value-bind (done lifted away) (picked-up-and-placed item poses x y z)
+    (is-true done "~a: ~a" item lifted)
+    (when done
+      (is (nearly 0.1 lifted 0.01) "~a is lifted by ~a m" item lifted)
+      (is (< away 0.02) "~a is ~a m from its target" item away))))
+
 (test each-item-is-picked-up-from-the-counter-and-placed-there
   (loop for (item y z to) in '((:milk 0.1 0.947 0.3) (:bowl -0.6 0.8835 -0.4)
                                (:cereal -0.2 0.962 -0.4))
-        do (multiple-value-bind (done lifted away)
-               (picked-up-and-placed item (standing-at -1.3 y pi) -2.1 to z)
-             (is-true done "~a" item)
-             (is (nearly 0.1 lifted 0.01) "~a is lifted by ~a" item lifted)
-             (is (< away 0.02) "~a is ~a m from its target" item away))))
+        do (check-picked-up-and-placed item (standing-at -1.3 y pi) -2.1 to z)))
 
 (test each-item-is-picked-up-from-the-table-and-placed-there
   (loop for (item height) in '((:milk 0.847) (:bowl 0.7835) (:cereal 0.862) (:spoon 0.7595))
-        do (multiple-value-bind (done lifted away)
-               (picked-up-and-placed item
-                                     (standing-at -0.35 0 0 item
-                                                  (geometry:make-pose 0.35 0.1 height))
-                                     0.35 -0.1 height)
-             (is-true done "~a" item)
-             (is (nearly 0.1 lifted 0.01) "~a is lifted by ~a" item lifted)
-             (is (< away 0.02) "~a is ~a m from its target" item away))))
+        do (check-picked-up-and-placed item
+                                       (standing-at -0.35 0 0 item
+                                                    (geometry:make-pose 0.35 0.1 height))
+                                       0.35 -0.1 height)))
+
+;;; Drawers
+
+(defun drawer-opened-and-closed (?drawer joint x y &rest options)
+  "Open and close a drawer from X, Y; return how far it was open, how far the spoon went along, and
+how far open it is at the end."
+  (apply #'call-in-kitchen
+         (lambda (projection)
+           (let ((before (geometry:pose-x (projection:observed-pose projection :spoon))))
+             (perform-in projection (opening-drawer ?drawer))
+             (let ((open (projection:observed-joint projection joint))
+                   (along (- (geometry:pose-x (projection:observed-pose projection :spoon))
+                             before)))
+               (perform-in projection (parking))
+               (perform-in projection (closing-drawer ?drawer))
+               (values open along (projection:observed-joint projection joint)))))
+         (standing-at x y pi) options))
+
+(test each-drawer-is-opened-and-closed
+  "From where the robot stands it reaches the handle at either end of its way; the spoon is in the
+second drawer and goes along."
+  (loop for (drawer joint x y spoon) in '((:drawer-1 "drawer_1_joint" -1.1 -0.3 0)
+                                          (:drawer-2 "drawer_2_joint" -1.1 0.3 0.4)
+                                          (:drawer-3 "drawer_3_joint" -1.1 0.6 0))
+        do (multiple-value-bind (open along closed) (drawer-opened-and-closed drawer joint x y)
+             (is-true open "~a: ~a" drawer along)
+             (when open
+               (is (nearly 0.4 open 0.005) "~a is open by ~a m" drawer open)
+               (is (nearly spoon along 0.01) "the spoon went along by ~a m" along)
+               (is (nearly 0 closed 0.005) "~a is open by ~a m" drawer closed)))))
+
+(test the-spoon-is-taken-out-of-the-drawer
+  (multiple-value-bind (held height)
+      (call-in-kitchen (lambda (projection)
+                         (perform-in projection (opening-drawer :drawer-2))
+                         (perform-in projection (parking))
+                         (perform-in projection (picking-up-item :spoon))
+                         (values (projection:held-item projection)
+                                 (items-height projection :spoon)))
+                       (standing-at -1.1 0.3 pi))
+    (is (eq :spoon held) "~a" height)
+    (is (and (realp height) (> height 0.69)))))
+
+(test a-drawer-goes-as-far-as-it-is-asked-to
+  (is (nearly 0.2 (or (call-in-kitchen
+                       (lambda (projection)
+                         (perform-in projection (opening-drawer :drawer-2 '(:distance 0.2)))
+                         (projection:observed-joint projection "drawer_2_joint"))
+                       (standing-at -1.1 0.3 pi))
+                      0)
+              0.005)))
