@@ -5,9 +5,9 @@
 // ended on the table and how many were seen.
 //
 // The scene is that of models/kitchen/, the robot has as many links as models/robot/.  The robot
-// drives to the counter and opens drawer 2; four times it finds an item (drives to the counter,
-// asks 200 rays whether the item is seen), picks it up and delivers it (drives to the table, puts
-// it down); it closes the drawer.  Every step moves all links as kinematic bodies.  A held item
+// finds three items (drives to the counter, asks 200 rays whether the item is seen), picks each up
+// and delivers it (drives to the table, puts it down); drives to a drawer and opens it, does the
+// same with the item in it, and closes it.  Every step moves all links as kinematic bodies.  A held item
 // hangs on a fixed constraint with joint feedback, drawers on sliders.  There is no planning: no inverse
 // kinematics, no search for paths, no test whether the robot collides with anything.
 
@@ -377,29 +377,31 @@ class Plan {
 }  // namespace
 
 int main(int argc, char **argv) {
-  int steps[kActions] = {240, 960};
+  int steps[kActions];
   if (argc != 1 && argc != kActions + 1) {
     std::fprintf(stderr, "usage: transport [N1 ... N%d]\n", kActions);
     return 2;
   }
-  for (int i = 2; i < kActions; i++) steps[i] = 1200;
+  for (int &count : steps) count = 1200;
   for (int i = 1; i < argc; i++) steps[i - 1] = std::max(10, std::atoi(argv[i]));
 
   const double begin = processor_seconds();
   Kitchen kitchen;
   const double built = processor_seconds();
   Plan plan(kitchen);
-  int next = 0, seen = 0;
-  plan.drive(-1.15, -0.188, M_PI, steps[next++]);
-  plan.move_drawer(1, 0.3, steps[next++]);
   const double heights[] = {0.7835, 0.862, 0.847, 0.7595};
+  int next = 0, seen = 0;
   for (int i = 0; i < 4; i++) {
+    if (i == 3) {
+      plan.drive(-1.1, 0.3, M_PI, steps[next++]);
+      plan.move_drawer(1, 0.3, steps[next++]);
+    }
     btRigidBody &item = *kitchen.items[i];
     seen += plan.find(item, steps[next++]) > 20;
     plan.pick_up(item, steps[next++]);
-    plan.deliver(item, 0.3 * (i - 1.5), heights[i] + 0.002, steps[next++]);
+    plan.deliver(item, 0.35 * i - 0.6, heights[i] + 0.002, steps[next++]);
   }
-  plan.drive(-1.15, -0.188, M_PI, steps[next] / 2);
+  plan.drive(-1.1, 0.3, M_PI, steps[next] / 2);
   plan.move_drawer(1, -0.3, steps[next] - steps[next] / 2);
   const double end = processor_seconds();
 

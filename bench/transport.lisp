@@ -111,3 +111,57 @@ of the steps of each action, DELIVERED how many items are on the table, HASH of 
                                  :delivered (delivered-items projection)
                                  :hash (projection:state-hash projection))))
       (projection:close-projection projection))))
+
+(defun run-peer (steps program)
+  "Run the peer PROGRAM with STEPS, a list, for its actions.  Return its seconds of processor time,
+those of making the world, how many steps it made and how many items it delivered."
+  (let ((output (uiop:run-program (list* (uiop:native-namestring program)
+                                         (mapcar #'princ-to-string steps))
+                                  :output :string))
+        (*read-default-float-format* 'double-float)
+        (*read-eval* nil))
+    (with-input-from-string (stream output)
+      (values (read stream) (read stream) (read stream) (read stream)))))
+
+(defun world-microseconds (scene &key (rounds 31))
+  "Return the median processor time (us) of making, and closing, a world with the kitchen of SCENE."
+  (median (loop repeat rounds
+                collect (let ((start (foreign:processor-seconds)))
+                          (projection:close-projection (projection:make-projection scene))
+                          (* 1d6 (- (foreign:processor-seconds) start))))))
+
+(defun print-transport-benchmarks (stream &key (rounds 9))
+  "Run the plan in turn at both fidelities and by the peer, and print the medians."
+  (let* ((program (compiled-peer "transport"))
+         (scene (kitchen-scene))
+         (first (run-transport scene :full))
+         (full '()) (fast '()) (peer '()) (peer-steps 0))
+    (run-transport scene :fast)
+    (loop repeat rounds
+          do (push (run-transport scene :full) full)
+             (push (run-transport scene :fast) fast)
+             (multiple-value-bind (seconds world-seconds steps)
+                 (run-peer (transport-run-steps first) program)
+               (declare (ignore world-seconds))
+               (push seconds peer)
+               (setf peer-steps steps)))
+    (flet ((milliseconds (runs) (* 1d3 (median (mapcar #'transport-run-seconds runs)))))
+      (format stream "kitchen, 15 actions       ~,1f ms fully stepped (~d steps), ~,1f ms in plain ~
+                      C++ (~d steps), time ratio ~,3f~%"
+              (milliseconds full) (reduce #'+ (transport-run-steps first)) (* 1d3 (median peer))
+              peer-steps
+              (median (mapcar (lambda (run seconds) (/ (transport-run-seconds run) seconds))
+                              full peer)))
+      (format stream "the same, fast            ~,1f ms, ~,1f MB allocated (full ~,1f MB), ~d of 4 ~
+                      items delivered (full ~d)~%"
+              (milliseconds fast) (/ (transport-run-bytes (first fast)) 1d6)
+              (/ (transport-run-bytes first) 1d6) (transport-run-delivered (first fast))
+              (transport-run-delivered first))
+      (format stream "state hashes              ~(~16,'0x~) fast, ~(~16,'0x~) full, ~:[differing~;~
+                      equal~] in all ~d rounds~%"
+              (transport-run-hash (first fast)) (transport-run-hash first)
+              (flet ((same-p (runs) (= 1 (length (remove-duplicates
+                                                  (mapcar #'transport-run-hash runs))))))
+                (and (same-p fast) (same-p (cons first full))))
+              rounds)
+      (format stream "a world with the kitchen  ~,2f ms~%" (/ (world-microseconds scene) 1d3)))))
