@@ -288,9 +288,17 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "terrain") (:file "footing") (:file "base-paths")
                              (:file "surroundings") (:file "base-motion") (:file "going")))
                (:module "perception" :serial t
-                :components ((:file "surface") (:file "detecting")))
+                :components ((:file "hulls") (:file "surface") (:file "seeing")
+                             (:file "places") (:file "detecting") (:file "looking")))
                (:module "manipulation" :serial t
-                :components ((:file "column-arm")))))
+                :components ((:file "column-arm") (:file "extents") (:file "grasps")
+                             (:file "fitting") (:file "arms") (:file "gripper") (:file "ways")
+                             (:file "reaching") (:file "picking") (:file "placing")
+                             (:file "containers") (:file "modules")))
+               (:module "actions" :serial t
+                :components ((:file "places") (:file "base-poses") (:file "moving")
+                             (:file "searching") (:file "environment") (:file "fetching")
+                             (:file "transporting") (:file "groundings")))))
 
 (asdf:defsystem "discrepancy-finder/statistics"
   :description "Distributions, regression, and rules that decide when there are enough samples."
@@ -380,7 +388,9 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
                              (:file "rays") (:file "mechanisms") (:file "motion-runs")))
                (:module "projection" :serial t
-                :components ((:file "two-regions") (:file "head") (:file "perception")))
+                :components ((:file "two-regions") (:file "head") (:file "perception")
+                             (:file "seeing") (:file "manipulation")
+                             (:file "manipulation-kitchen") (:file "actions-symbolic")))
                (:module "statistics"
                 :serial t
                 :components ((:file "normal") (:file "distributions") (:file "least-squares")
@@ -390,6 +400,9 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "random") (:file "abstraction") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
+               (:module "kitchen" :pathname "projection/" :serial t
+                :components ((:file "kitchen") (:file "kitchen-effects")
+                             (:file "kitchen-fidelity")))
                (:file "interface") (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))

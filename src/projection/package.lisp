@@ -3,8 +3,23 @@
   (:use #:cl #:discrepancy-finder.geometry)
   (:local-nicknames (#:bullet #:discrepancy-finder.bullet)
                     (#:plan #:discrepancy-finder.plan-language)
+                    (#:desig #:discrepancy-finder.designators)
                     (#:source #:discrepancy-finder.source)
+                    (#:prolog #:discrepancy-finder.prolog)
                     (#:foreign #:discrepancy-finder.foreign))
+  ;; What the plans in actions/ are written in.
+  (:import-from #:discrepancy-finder.plan-language
+                #:a #:an #:def-cram-function #:perform #:fail
+                #:with-failure-handling #:retry #:with-retry-counters #:do-retry
+                #:desig-prop-value #:next-solution #:failure-description
+                #:gripper-low-level-failure #:looking-high-level-failure
+                #:manipulation-low-level-failure
+                #:navigation-goal-in-collision #:navigation-high-level-failure
+                #:navigation-low-level-failure #:navigation-pose-unreachable
+                #:object-nowhere-to-be-found #:object-undeliverable #:object-unfetchable
+                #:object-unreachable #:perception-low-level-failure #:ptu-low-level-failure
+                #:environment-manipulation-impossible)
+  (:import-from #:discrepancy-finder.designators #:designator-error)
   (:export
    ;; scenes
    #:load-scene #:scene #:scene-name #:scene-file #:scene-files #:scene-parameters #:scene-parameter
