@@ -37,10 +37,10 @@ the speed is CAP (m/s) at most, at its end 0 if STOP is true."
 ;;; Vectors are lists of three numbers.
 
 (defun points-apart (a b) (mapcar #'- a b))
-(defun inner-product (a b) (reduce #'+ (mapcar #'* a b)))
+(defun dot (a b) (reduce #'+ (mapcar #'* a b)))
 (defun times (factor a) (mapcar (lambda (number) (* factor number)) a))
 (defun points-sum (a b) (mapcar #'+ a b))
-(defun point-length (a) (sqrt (inner-product a a)))
+(defun point-length (a) (sqrt (dot a a)))
 
 (defun stretch-point (stretch distance)
   "Return the point, three values, of STRETCH at DISTANCE (m) from its start."
@@ -72,11 +72,11 @@ from CORNER at which it begins; NIL if there is none that is free."
   (let* ((in (points-apart corner from)) (out (points-apart to corner))
          (before (point-length in)) (after (point-length out))
          (in (times (/ before) in)) (out (times (/ after) out))
-         (angle (acos (max -1d0 (min 1d0 (inner-product in out)))))
+         (angle (acos (max -1d0 (min 1d0 (dot in out)))))
          (distance (min *blend* (/ before 2) (/ after 2)))
          (radius (if (< 1d-6 angle (- pi 1d-3)) (/ distance (tan (/ angle 2))) 0d0)))
     (when (> radius 0.01d0)
-      (let* ((across (points-apart out (times (inner-product in out) in)))
+      (let* ((across (points-apart out (times (dot in out) in)))
              (arc (make-stretch (points-apart corner (times distance in)) in (* radius angle)
                                 (min (gait-speed gait)
                                      (sqrt (* radius (min (gait-acceleration gait)
@@ -209,7 +209,7 @@ length."
                (if (level-at-p terrain x y)
                    (put-level-pose bases step x y height (/ w weight))
                    (put-pose bases step
-                             (standing-pose terrain x y height (/ w weight))))))
+                             (ground-pose terrain x y height (/ w weight))))))
     (when (plusp steps)
       (put-pose bases (1- steps) last))
     bases))
