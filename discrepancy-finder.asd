@@ -107,7 +107,8 @@ The environment variable CXX names another compiler than g++."))
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
                (:file "shapes") (:file "hulls") (:file "inertia") (:file "bodies")
                (:file "attachments") (:file "joints")
-               (:file "queries") (:file "contacts") (:file "rays")))
+               (:file "queries") (:file "contacts") (:file "rays") (:file "sweeps")
+               (:file "checkpoints")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."

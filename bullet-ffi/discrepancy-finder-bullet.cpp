@@ -7,12 +7,15 @@
 #include "world.inc"
 #include "hulls.inc"
 #include "shapes.inc"
+#include "contacts.inc"
+#include "placing.inc"
 #include "grips.inc"
 #include "constraints.inc"
 #include "joints.inc"
 #include "queries.inc"
-#include "contacts.inc"
 #include "rays.inc"
+#include "sweeps.inc"
+#include "checkpoints.inc"
 
 extern "C" {
 

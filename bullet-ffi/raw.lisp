@@ -80,4 +80,5 @@ seven doubles of a pose."
   "Return the keyword for a negative STATUS of the shim."
   (ecase status
     (-1 :bad-world) (-2 :bad-body) (-3 :bad-shape) (-4 :bad-constraint) (-5 :bad-number)
-    (-6 :bad-kind) (-7 :too-small) (-8 :no-memory) (-9 :nothing)))
+    (-6 :bad-kind) (-7 :too-small) (-8 :no-memory) (-9 :nothing)
+    (-10 :bad-checkpoint)))

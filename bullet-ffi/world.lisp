@@ -103,7 +103,8 @@ status is :NOTHING."
     (:bad-number "a number is out of range")
     (:bad-kind "the kind of the body does not allow it")
     (:too-small "the vector is too short")
-    (:no-memory "the memory is used up")))
+    (:no-memory "the memory is used up")
+    (:bad-checkpoint "the checkpoint is not one of such a world")))
 
 (defun in-range-p (number sort)
   (and (not (sb-ext:float-nan-p number))
