@@ -105,9 +105,11 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
-               (:file "shapes") (:file "bodies") (:file "attachments") (:file "joints")
-               (:file "queries") (:file "contacts") (:file "rays") (:file "mechanisms")
-               (:file "inverse-kinematics") (:file "motion-runs") (:file "clearances")))
+               (:file "shapes") (:file "hulls") (:file "inertia") (:file "bodies")
+               (:file "attachments") (:file "joints")
+               (:file "queries") (:file "contacts") (:file "rays") (:file "sweeps")
+               (:file "checkpoints") (:file "mechanisms") (:file "inverse-kinematics")
+               (:file "motion-runs") (:file "clearances")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."

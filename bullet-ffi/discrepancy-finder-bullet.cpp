@@ -1,18 +1,21 @@
-// Worlds, shapes and bodies of the Bullet shim; the API is in discrepancy-finder-bullet.h.
+// Worlds and bodies of the Bullet shim; the API is in discrepancy-finder-bullet.h.
 //
-// The shim is one translation unit in five parts: world.inc has the data structures and the guard
-// that every entry passes, this file worlds, shapes and bodies, constraints.inc attachments and
-// ignored collisions, queries.inc and rays.inc all that looks and does not touch.
+// The shim is one translation unit: world.inc has the data structures and the guard that every
+// entry passes, this file worlds and bodies, and each of the other parts one subject.
 
 #include "discrepancy-finder-bullet.h"
 #include "world.inc"
 #include "hulls.inc"
+#include "shapes.inc"
+#include "contacts.inc"
+#include "placing.inc"
 #include "grips.inc"
 #include "constraints.inc"
 #include "joints.inc"
 #include "queries.inc"
-#include "contacts.inc"
 #include "rays.inc"
+#include "sweeps.inc"
+#include "checkpoints.inc"
 #include "mechanisms.inc"
 #include "kinematics.inc"
 #include "courses.inc"
@@ -21,28 +24,6 @@
 #include "surveys.inc"
 #include "motion-runs.inc"
 #include "clearances.inc"
-
-namespace {
-
-int add_shape(dfb_world *world, std::unique_ptr<btCollisionShape> shape) {
-  world->shapes.push_back(std::move(shape));
-  return static_cast<int>(world->shapes.size()) - 1;
-}
-
-// Return a shape that is form moved to pose.
-std::unique_ptr<btCollisionShape> shifted_shape(btCollisionShape *form, const btTransform &pose) {
-  auto compound = std::make_unique<btCompoundShape>();
-  if (form->isCompound()) {
-    auto *parts = static_cast<btCompoundShape *>(form);
-    for (int i = 0; i < parts->getNumChildShapes(); i++)
-      compound->addChildShape(pose * parts->getChildTransform(i), parts->getChildShape(i));
-  } else {
-    compound->addChildShape(pose, form);
-  }
-  return compound;
-}
-
-}  // namespace
 
 extern "C" {
 
@@ -71,66 +52,18 @@ int dfb_step(dfb_world *world, int steps) {
   });
 }
 
-int dfb_shape_box(dfb_world *world, double x, double y, double z) {
-  return enter(world, [&]() -> int {
-    if (!positive(x) || !positive(y) || !positive(z)) return DFB_BAD_NUMBER;
-    return add_shape(world, std::make_unique<btBoxShape>(btVector3(x / 2, y / 2, z / 2)));
-  });
-}
-
-int dfb_shape_sphere(dfb_world *world, double radius) {
-  return enter(world, [&]() -> int {
-    if (!positive(radius)) return DFB_BAD_NUMBER;
-    return add_shape(world, std::make_unique<btSphereShape>(radius));
-  });
-}
-
-int dfb_shape_cylinder(dfb_world *world, double radius, double height) {
-  return enter(world, [&]() -> int {
-    if (!positive(radius) || !positive(height)) return DFB_BAD_NUMBER;
-    return add_shape(world,
-                     std::make_unique<btCylinderShapeZ>(btVector3(radius, radius, height / 2)));
-  });
-}
-
-int dfb_shape_plane(dfb_world *world, double nx, double ny, double nz, double d) {
-  return enter(world, [&]() -> int {
-    if (!usable(nx) || !usable(ny) || !usable(nz) || !usable(d) ||
-        !unit(nx * nx + ny * ny + nz * nz))
-      return DFB_BAD_NUMBER;
-    return add_shape(world, std::make_unique<btStaticPlaneShape>(btVector3(nx, ny, nz), d));
-  });
-}
-
-int dfb_shape_compound(dfb_world *world, int count, const int *children, const double *poses) {
-  return enter(world, [&]() -> int {
-    if (count < 1) return DFB_BAD_SHAPE;
-    auto compound = std::make_unique<btCompoundShape>(true, count);
-    for (int i = 0; i < count; i++) {
-      if (children[i] < 0 || children[i] >= static_cast<int>(world->shapes.size()))
-        return DFB_BAD_SHAPE;
-      btCollisionShape *child = world->shapes[children[i]].get();
-      if (!child->isConvex()) return DFB_BAD_SHAPE;
-      const double *p = poses + 7 * i;
-      btTransform pose;
-      if (!make_pose(pose, p[0], p[1], p[2], p[3], p[4], p[5], p[6])) return DFB_BAD_NUMBER;
-      compound->addChildShape(pose, child);
-    }
-    return add_shape(world, std::move(compound));
-  });
-}
-
-int dfb_body_new(dfb_world *world, int shape, int kind, const double *pose_numbers,
+int dfb_body_new(dfb_world *world, const dfb_shape *shape, int kind, const double *pose_numbers,
                  const double *mass_numbers, const double *material) {
   return enter(world, [&]() -> int {
-    if (shape < 0 || shape >= static_cast<int>(world->shapes.size())) return DFB_BAD_SHAPE;
-    btCollisionShape *form = world->shapes[shape].get();
+    if (!is_shape(shape)) return DFB_BAD_SHAPE;
+    btCollisionShape *form = shape->shape->form.get();
     const bool dynamic = kind == DFB_DYNAMIC;
     if (!dynamic && kind != DFB_STATIC && kind != DFB_KINEMATIC) return DFB_BAD_KIND;
     if (form->getShapeType() == STATIC_PLANE_PROXYTYPE && kind != DFB_STATIC) return DFB_BAD_KIND;
     btTransform pose;
     Body body;
     body.kind = kind;
+    body.shape = shape->shape;
     if (!make_pose(pose, pose_numbers)) return DFB_BAD_NUMBER;
     if (dynamic) {
       for (int i = 0; i < 4; i++)

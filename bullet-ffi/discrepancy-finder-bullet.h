@@ -1,6 +1,6 @@
 /* C API of the Bullet shim: rigid-body worlds for a caller that has no C++.
  *
- * A world is an opaque handle.  Shapes, bodies and attachments are ids inside of one world:
+ * Worlds and shapes are opaque handles.  Bodies, attachments and joints are ids inside of one world:
  * integers from 0, in the order of their making.  A function that makes something returns its id,
  * every other one DFB_OK or what its comment says; a negative result is one of the statuses below,
  * and then nothing was changed and no output was written.  Handles are checked at each entry, ids
@@ -26,18 +26,20 @@ extern "C" {
 #define DFB_API __attribute__((visibility("default")))
 
 typedef struct dfb_world dfb_world;
+typedef struct dfb_shape dfb_shape;
 
 enum dfb_status {
   DFB_OK = 0,
   DFB_BAD_WORLD = -1,       /* the handle is no open world */
   DFB_BAD_BODY = -2,        /* no body has this id, or two bodies are the same one */
-  DFB_BAD_SHAPE = -3,       /* no shape has this id, or it cannot be used here */
-  DFB_BAD_CONSTRAINT = -4,  /* no live attachment has this id */
+  DFB_BAD_SHAPE = -3,       /* the handle is no shape, or it cannot be used here */
+  DFB_BAD_CONSTRAINT = -4,  /* no live attachment or joint has this id */
   DFB_BAD_NUMBER = -5,      /* not finite, not positive, not of unit length */
   DFB_BAD_KIND = -6,        /* the kind of the body does not allow it */
   DFB_TOO_SMALL = -7,       /* the output has no room for the result */
   DFB_NO_MEMORY = -8,
-  DFB_NOTHING = -9,         /* no two bodies penetrate each other */
+  DFB_NOTHING = -9,         /* there is no such thing as was asked for */
+  DFB_BAD_CHECKPOINT = -10, /* no checkpoint of such a world */
   DFB_BAD_LINK = -20        /* no mechanism, link or joint has this id, or the tree is none */
 };
 
@@ -53,18 +55,31 @@ DFB_API int dfb_world_delete(dfb_world *world);
 /* Advance the world by a number of time steps. */
 DFB_API int dfb_step(dfb_world *world, int steps);
 
-/* Shapes; the origin of a shape is the centre of mass of its body */
-/* Return a box with these full extents (m). */
-DFB_API int dfb_shape_box(dfb_world *world, double x, double y, double z);
-/* Return a sphere (m). */
-DFB_API int dfb_shape_sphere(dfb_world *world, double radius);
-/* Return a cylinder along z (m). */
-DFB_API int dfb_shape_cylinder(dfb_world *world, double radius, double height);
-/* Return the half-space of the points p with n.p <= d (m), n a unit vector. */
-DFB_API int dfb_shape_plane(dfb_world *world, double nx, double ny, double nz, double d);
-/* Return the union of count boxes, spheres and cylinders; seven numbers of poses for each. */
-DFB_API int dfb_shape_compound(dfb_world *world, int count, const int *children,
-                               const double *poses);
+/* Shapes: each function writes a new handle.  A shape may be used in any number of worlds and threads,
+ * and is freed when neither its handle nor a body needs it; its origin is that of the link frame. */
+/* Free the handle of a shape. */
+DFB_API int dfb_shape_delete(dfb_shape *shape);
+/* Make a box with these full extents (m). */
+DFB_API int dfb_shape_box(double x, double y, double z, dfb_shape **shape);
+/* Make a sphere (m). */
+DFB_API int dfb_shape_sphere(double radius, dfb_shape **shape);
+/* Make a cylinder along z (m). */
+DFB_API int dfb_shape_cylinder(double radius, double height, dfb_shape **shape);
+/* Make the half-space of the points p with n.p <= d (m), n a unit vector. */
+DFB_API int dfb_shape_plane(double nx, double ny, double nz, double d, dfb_shape **shape);
+/* Make the convex hull of 4 to 40 points of three numbers each (m), nowhere thinner than 1e-5 m. */
+DFB_API int dfb_shape_hull(int count, const double *points, dfb_shape **shape);
+/* Make the union of count shapes, none a plane or a union; seven numbers of poses for each. */
+DFB_API int dfb_shape_compound(int count, dfb_shape *const *children, const double *poses,
+                               dfb_shape **shape);
+
+/* Convex hulls */
+/* Choose at most most (4 to 40) of count points so that their convex hull leaves little of that of
+ * all out; write them, three numbers each, and return how many they are. */
+DFB_API int dfb_convex_hull(int count, const double *points, int most, double *corners);
+/* Write the moments of the convex hull of 4 to 40 points, 13 doubles: its volume (m^3), the
+ * integrals over it of x, y and z, and of their products, a 3 x 3 matrix. */
+DFB_API int dfb_hull_moments(int count, const double *points, double *moments);
 
 /* Bodies */
 /* Return a body whose link frame is at pose (7 doubles).  The numbers of mass count for a dynamic
@@ -73,7 +88,7 @@ DFB_API int dfb_shape_compound(dfb_world *world, int count, const int *children,
  * rolling friction (m), the restitution, and the linear and angular damping, which are the parts of
  * a velocity that are lost in a second; 5 in all.  The friction of a pair is the product of both
  * coefficients, and so is its restitution. */
-DFB_API int dfb_body_new(dfb_world *world, int shape, int kind, const double *pose,
+DFB_API int dfb_body_new(dfb_world *world, const dfb_shape *shape, int kind, const double *pose,
                          const double *mass, const double *material);
 /* Move a kinematic body: at the next step it has the velocity that takes it to this pose. */
 DFB_API int dfb_body_move(dfb_world *world, int body, double x, double y, double z, double qx,
@@ -152,7 +167,19 @@ DFB_API int dfb_penetration(dfb_world *world, int a, int b, double *depth);
  * the two bodies, or return DFB_NOTHING. */
 DFB_API int dfb_deepest_penetration(dfb_world *world, double *depth, int *a, int *b);
 
-/* Rays */
+/* Find the other bodies, the passed_count ones in passed aside, that are not farther than distance
+ * from a body: write their ids and for each four numbers, how deep it penetrates (negative: minus the
+ * distance) and a point in the midst (m); return how many they are.  There must be room for all
+ * bodies of the world. */
+DFB_API int dfb_contacts(dfb_world *world, int body, double distance, int passed_count,
+                         const int *passed, int *others, double *numbers);
+/* Find the two bodies, one of each list, that are nearest to each other: write their distance (m),
+ * negative if they penetrate each other, and which they are; return DFB_NOTHING, with limit as
+ * distance, if none are nearer than that. */
+DFB_API int dfb_clearance(dfb_world *world, int count, const int *bodies, int other_count,
+                          const int *others, double limit, double *distance, int *a, int *b);
+
+/* Rays and sweeps */
 /* Find the first body on the way from x, y, z to to_x, to_y, to_z (m, at least 1e-9 m apart), the
  * passed_count bodies in passed aside: write it and the hit, 7 doubles: the point (m), the outward
  * normal of the surface there, and the part, 0 to 1, of the way.  Return DFB_NOTHING if there is
@@ -164,6 +191,24 @@ DFB_API int dfb_cast_ray(dfb_world *world, double x, double y, double z, double 
  * where there is one.  Return the number of rays that hit something. */
 DFB_API int dfb_cast_rays(dfb_world *world, int count, const double *rays, int passed_count,
                           const int *passed, int *bodies, double *hits);
+/* Move a shape that is neither a plane nor a union straight from one pose to another (7 doubles each,
+ * at least 1e-9 m apart), turning evenly: write the first body that it touches, the passed_count
+ * ones aside, and 7 doubles as for rays.  Return DFB_NOTHING if there is none. */
+DFB_API int dfb_sweep(dfb_world *world, const dfb_shape *shape, const double *from,
+                      const double *to, int passed_count, const int *passed, int *body,
+                      double *hit);
+
+/* Checkpoints */
+/* Return the number of doubles of a checkpoint. */
+DFB_API int dfb_checkpoint_size(dfb_world *world);
+/* Write a checkpoint, to an output of length doubles.  It holds whatever later steps depend on: all
+ * states, sleep, motors, attachments, ignored collisions.  What Bullet would remember beyond
+ * that, as contacts, the world forgets, so that it goes on with the same bits as a world to which the
+ * checkpoint is restored. */
+DFB_API int dfb_checkpoint_make(dfb_world *world, double *checkpoint, int length);
+/* Restore a checkpoint of this world or of one with equal bodies and joints, made in the same order;
+ * return DFB_BAD_CHECKPOINT for any other. */
+DFB_API int dfb_checkpoint_restore(dfb_world *world, const double *checkpoint, int length);
 
 /* Mechanisms: trees of links moved by forward kinematics, robots.  A link hangs on a joint, which
  * has the link's index; positions are one double (m or rad) for each joint. */
@@ -197,10 +242,11 @@ DFB_API int dfb_inverse_kinematics(dfb_world *world, int mechanism, int link, co
 
 /* Motions of a mechanism */
 /* Begin a motion that takes the joints straight from start to goal (joints that are not at start
- * are put there first, at rest; NULL for where they are, and goal NULL for start) and, with base_moves 1, the base along bases.  Without fast each
- * step steps the world; with fast 1 steps that can affect nothing but held bodies are skipped.  A
- * step in which a watched body, of a link or attached to one, would come to an obstacle as near as
- * contact_distance (m, not negative) ends the motion before it. */
+ * are put there first, at rest; start NULL: where they are; goal NULL: start) and, with base_moves 1,
+ * the base along bases.  Without fast each step steps the world; with fast 1 steps that can affect
+ * nothing but held bodies are skipped.  A step in which a watched body, of a link or attached to
+ * one, would come as near as contact_distance (m, not negative) to an obstacle ends the motion
+ * before it. */
 DFB_API int dfb_motion_begin(dfb_world *world, int mechanism, const double *start,
                              const double *goal, int base_moves, int fast,
                              double contact_distance, int watched_count, const int *watched,

@@ -27,11 +27,16 @@
 (defun handle-usable-p (handle)
   (and (handle-open handle) (eq (handle-session handle) **session**)))
 
+(defstruct (shape-handle (:include handle) (:constructor make-shape-handle (pointer session))
+                         (:copier nil)))
+
 (defun release (handle)
-  "Delete the foreign world of HANDLE unless it was deleted already."
+  "Delete the foreign world or shape of HANDLE unless it was deleted already."
   (when (and (handle-usable-p handle)
              (eq t (sb-ext:compare-and-swap (handle-open handle) t nil)))
-    (%world-delete (handle-pointer handle))))
+    (if (shape-handle-p handle)
+        (%shape-delete (handle-pointer handle))
+        (%world-delete (handle-pointer handle)))))
 
 (defstruct (world (:constructor %make-world (handle time-step)) (:copier nil))
   "A rigid-body world with gravity, bodies and attachments, which advances in equal time steps."
@@ -99,6 +104,7 @@ status is :NOTHING."
     (:bad-kind "the kind of the body does not allow it")
     (:too-small "the vector is too short")
     (:no-memory "the memory is used up")
+    (:bad-checkpoint "the checkpoint is not one of such a world")
     (:bad-link "the link, or one of the joints, is none of the mechanism")))
 
 (defun in-range-p (number sort)
