@@ -107,8 +107,9 @@ The environment variable CXX names another compiler than g++."))
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
                (:file "shapes") (:file "hulls") (:file "inertia") (:file "bodies")
                (:file "attachments") (:file "joints")
-               (:file "queries") (:file "contacts") (:file "rays") (:file "mechanisms")
-               (:file "inverse-kinematics") (:file "motion-runs") (:file "clearances")))
+               (:file "queries") (:file "contacts") (:file "rays") (:file "sweeps")
+               (:file "checkpoints") (:file "mechanisms") (:file "inverse-kinematics")
+               (:file "motion-runs") (:file "clearances")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -266,58 +267,34 @@ The environment variable CXX names another compiler than g++."))
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
   :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "alexandria"
-               "cffi")
+               "xmls")
   :pathname "src/projection/"
   :serial t
   :components ((:file "package") (:file "conditions")
                (:module "models" :serial t
-                :components ((:file "xml") (:file "xml-reader") (:file "numbers") (:file "inertia") (:file "packages")
-                             (:file "meshes") (:file "links") (:file "joints") (:file "urdf")
-                             (:file "groups")))
+                :components ((:file "urdf")))
                (:module "scenes" :serial t
-                :components ((:file "clauses") (:file "parameters") (:file "scene")
-                             (:file "materials") (:file "robots") (:file "reading")))
+                :components ((:file "scene")))
                (:module "worlds" :serial t
-                :components ((:file "outlines") (:file "blueprints") (:file "robot")
-                             (:file "projection") (:file "building") (:file "observations")
-                             (:file "performing")))
+                :components ((:file "robot") (:file "projection")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "runner") (:file "head")
-                             (:file "torso")))
+                :components ((:file "profiles") (:file "head")))
                (:module "navigation" :serial t
-                :components ((:file "terrain") (:file "footing") (:file "base-paths")
-                             (:file "surroundings") (:file "base-motion") (:file "going")))
+                :components ((:file "going")))
                (:module "perception" :serial t
-                :components ((:file "hulls") (:file "surface") (:file "seeing")
-                             (:file "places") (:file "detecting") (:file "looking")))
+                :components ((:file "surface") (:file "detecting")))
                (:module "manipulation" :serial t
-                :components ((:file "column-arm") (:file "extents") (:file "grasps")
-                             (:file "fitting") (:file "arms") (:file "gripper") (:file "ways") (:file "smooth-ways")
-                             (:file "reaching") (:file "picking") (:file "placing")
-                             (:file "containers") (:file "modules")))
-               (:module "actions" :serial t
-                :components ((:file "places") (:file "base-poses") (:file "moving")
-                             (:file "searching") (:file "environment") (:file "fetching")
-                             (:file "transporting") (:file "groundings")))))
-
-(asdf:defsystem "discrepancy-finder/statistics"
-  :description "Distributions, regression, and rules that decide when there are enough samples."
-  :depends-on ("discrepancy-finder/geometry")
-  :pathname "src/statistics/"
-  :serial t
-  :components ((:file "package") (:file "conditions") (:file "normal") (:file "beta")
-               (:file "student") (:file "least-squares") (:file "regression") (:file "rules")
-               (:file "evidence") (:file "paper-rule") (:file "zero-failure")
-               (:file "prediction")))
+                :components ((:file "column-arm")))))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
   :depends-on ("discrepancy-finder/symbolic-execution" "discrepancy-finder/projection"
-               "discrepancy-finder/statistics" "discrepancy-finder/json" "alexandria")
+               "discrepancy-finder/json" "alexandria")
   :pathname "src/discrepancy/"
   :serial t
-  :components ((:file "package") (:file "conditions")
-               (:file "random") (:file "abstraction") (:file "define-abstraction")
+  :components ((:file "package") (:file "statistics-conditions") (:file "conditions")
+               (:file "random") (:file "quantile") (:file "least-squares") (:file "confidence")
+               (:file "paper-rule") (:file "abstraction") (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "replay")
                (:file "replay-file")))
@@ -388,21 +365,13 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
                              (:file "rays") (:file "mechanisms") (:file "motion-runs")))
                (:module "projection" :serial t
-                :components ((:file "two-regions") (:file "head") (:file "perception")
-                             (:file "seeing") (:file "manipulation")
-                             (:file "manipulation-kitchen") (:file "actions-symbolic")))
-               (:module "statistics"
-                :serial t
-                :components ((:file "normal") (:file "distributions") (:file "least-squares")
-                             (:file "paper-rule") (:file "guaranteed-rules")))
+                :components ((:file "two-regions") (:file "head") (:file "perception")))
                (:module "discrepancy"
                 :serial t
-                :components ((:file "random") (:file "abstraction") (:file "search")
+                :components ((:file "random") (:file "quantile") (:file "least-squares")
+                             (:file "confidence") (:file "abstraction") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
-               (:module "kitchen" :pathname "projection/" :serial t
-                :components ((:file "kitchen") (:file "kitchen-effects")
-                             (:file "kitchen-fidelity")))
                (:file "interface") (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
