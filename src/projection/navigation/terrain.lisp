@@ -62,7 +62,7 @@ inside."
   (loop for sill in (terrain-sills terrain)
         always (> (outside-distance sill x y) (terrain-reach terrain))))
 
-(defun standing-pose (terrain x y z yaw)
+(defun ground-pose (terrain x y z yaw)
   "Return the pose of the base at X, Y, turned by YAW, at the height Z above the ground of TERRAIN."
   (if (level-at-p terrain x y)
       (make-pose x y z :yaw yaw)
