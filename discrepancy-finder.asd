@@ -108,7 +108,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "shapes") (:file "hulls") (:file "inertia") (:file "bodies")
                (:file "attachments") (:file "joints")
                (:file "queries") (:file "contacts") (:file "rays") (:file "mechanisms")
-               (:file "inverse-kinematics") (:file "motion-runs")))
+               (:file "inverse-kinematics") (:file "motion-runs") (:file "clearances")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."

@@ -20,6 +20,7 @@
 #include "held-bodies.inc"
 #include "surveys.inc"
 #include "motion-runs.inc"
+#include "clearances.inc"
 
 extern "C" {
 

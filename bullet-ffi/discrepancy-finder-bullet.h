@@ -224,6 +224,24 @@ DFB_API int dfb_motion_begin(dfb_world *world, int mechanism, const double *star
  * were done before a contact; write the two bodies of the contact, or -1. */
 DFB_API int dfb_motion_continue(dfb_world *world, int mechanism, int count, const double *bases,
                                 const double *fractions, int *bodies);
+
+/* Clearances of mechanisms: nothing is moved.  A body of a link, or one attached to it, is where
+ * base and positions would put it, any other one where it is.  Pairs that ignore their collision
+ * do not count. */
+/* Find the two bodies, one of watched and one of obstacles, that are nearest to each other: write
+ * their distance (m, 0 if they penetrate each other) and them.  Return DFB_NOTHING if none are
+ * nearer than limit.  The search ends with the first two that penetrate each other. */
+DFB_API int dfb_mechanism_clearance(dfb_world *world, int mechanism, const double *base,
+                                    const double *positions, int watched_count,
+                                    const int *watched, int obstacle_count, const int *obstacles,
+                                    double limit, double *distance, int *bodies);
+/* Find where on the straight way of the joints from start to goal two such bodies first come as
+ * near as contact_distance: write the fraction of the way and them, or return DFB_NOTHING.  Two
+ * that are so near at the start already may come 1 mm closer. */
+DFB_API int dfb_path_contact(dfb_world *world, int mechanism, const double *base,
+                             const double *start, const double *goal, int watched_count,
+                             const int *watched, int obstacle_count, const int *obstacles,
+                             double contact_distance, double *fraction, int *bodies);
 #ifdef __cplusplus
 }
 #endif

@@ -38,6 +38,6 @@ order give equal bits, in any thread or process, and queries change no later bit
    #:link-spec-axis #:link-spec-lower #:link-spec-upper #:link-spec-mimic #:link-spec-body
    #:mechanism #:make-mechanism #:mechanism-world #:mechanism-links #:link-index
    #:make-positions #:pose-mechanism #:mechanism-posture #:link-pose #:forward-kinematics #:inverse-kinematics
-   #:run-motion
+   #:run-motion #:mechanism-clearance #:path-contact
    ;; rays
    #:cast-ray #:cast-rays))

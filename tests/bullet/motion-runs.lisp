@@ -5,23 +5,22 @@
 (def-suite motion-runs :in all)
 (in-suite motion-runs)
 
-(defun ramp (steps distance acceleration &key (speed 1d0))
-  "Return a vector with the way (m) after each of STEPS of 1/240 s of a trapezoidal profile."
-  (let* ((distance (float distance 1d0)) (acceleration (float acceleration 1d0))
-         (ramp (min (/ speed acceleration) (sqrt (/ distance acceleration))))
-         (top (* acceleration ramp))
-         (cruise (/ (- distance (* top ramp)) top))
-         (end (+ cruise (* 2 ramp)))
+(defun ramp (steps distance acceleration &key (braking acceleration))
+  "Return a vector with the way (m) after each of STEPS of 1/240 s of a drive at 1 m/s, or slower if
+DISTANCE is too short, with ACCELERATION and BRAKING (m/s^2)."
+  (let* ((a (float acceleration 1d0)) (b (float braking 1d0))
+         (ramps (+ (/ 1 (* 2 a)) (/ 1 (* 2 b))))
+         (speed (min 1d0 (sqrt (/ distance ramps))))
+         (up (/ speed a)) (down (/ speed b))
+         (end (+ up down (/ (- distance (* ramps speed speed)) speed)))
          (ways (make-array steps :element-type 'double-float)))
     (loop for i from 1 to steps
           for time = (/ i 240d0)
           do (setf (aref ways (1- i))
-                   (cond ((< time ramp) (/ (* acceleration time time) 2))
-                         ((< time (+ ramp cruise))
-                          (+ (/ (* top ramp) 2) (* top (- time ramp))))
-                         ((< time end)
-                          (- distance (/ (* acceleration (expt (- end time) 2)) 2)))
-                         (t distance))))
+                   (cond ((< time up) (/ (* a time time) 2))
+                         ((< time (- end down)) (+ (/ (* speed up) 2) (* speed (- time up))))
+                         ((< time end) (- distance (/ (* b (expt (- end time) 2)) 2)))
+                         (t (float distance 1d0)))))
     ways))
 
 (defun straight-bases (ways &key (turn 0d0))
@@ -126,7 +125,7 @@
 (defun drive-and-brake (carrier fidelity braking)
   "Drive until a stop from 1 m/s with BRAKING (m/s^2), and a second longer; return in which step the
 item was lost, and where it is then."
-  (let* ((ways (ramp 800 1.5d0 braking))
+  (let* ((ways (ramp 800 1.5d0 1 :braking braking))
          (bases (straight-bases ways))
          (attachment (carrier-attachment carrier)))
     (loop for i below 800
@@ -136,7 +135,7 @@ item was lost, and where it is then."
                                   (bullet:body-pose (carrier-item carrier)))))))
 
 (test fidelities-agree-on-what-is-lost-and-when
-  (loop for (capacity braking lost) in '((4.9d0 1 t) (5.5d0 2 nil) (5.5d0 3 t) (50 3 nil))
+  (loop for (capacity braking lost) in '((4.9d0 1 t) (5.05d0 2 nil) (5.05d0 3 t) (50 3 nil))
         for results = (loop for fidelity in '(:full :fast)
                             collect (with-carrier (carrier :capacity capacity
                                                            :point (geometry:make-pose 0 0 0))
@@ -150,8 +149,8 @@ item was lost, and where it is then."
 
 (test what-is-lost-falls-alike-in-both-fidelities
   (flet ((outcome (fidelity)
-           (with-carrier (carrier :capacity 5.2d0)
-             (let ((ways (ramp 1000 1.5d0 3)))
+           (with-carrier (carrier :capacity 5.05d0)
+             (let ((ways (ramp 1000 1.5d0 1 :braking 3)))
                (run-carrier carrier fidelity :steps 1000 :bases (straight-bases ways))
                (is-true (bullet:attachment-lost-p (carrier-attachment carrier)))
                (is-true (bullet:at-rest-p (carrier-world carrier)))
@@ -241,8 +240,8 @@ item was lost, and where it is then."
 
 (test motions-are-bit-identical
   (flet ((state (fidelity)
-           (with-carrier (carrier :capacity 5.2d0)
-             (run-carrier carrier fidelity :steps 1000 :bases (straight-bases (ramp 1000 1.5d0 3)))
+           (with-carrier (carrier :capacity 5.05d0)
+             (run-carrier carrier fidelity :steps 1000 :bases (straight-bases (ramp 1000 1.5d0 1 :braking 3)))
              (bullet:state-hash (carrier-world carrier)))))
     (dolist (fidelity '(:full :fast))
       (is (= (state fidelity) (state fidelity))))))
@@ -259,3 +258,67 @@ item was lost, and where it is then."
       (signals bullet:bullet-error
         (run-carrier carrier :fast :steps 1 :watched (list (add-cube other :cube 0 0)))))
     (is (equal '(0 :done nil nil) (multiple-value-list (run-carrier carrier :fast :steps 0))))))
+
+;;; Clearances
+
+(test clearance-is-that-of-the-posture
+  (with-carrier (carrier)
+    (let* ((world (carrier-world carrier))
+           (mechanism (carrier-mechanism carrier))
+           (wall (add-box world "wall" (geometry:make-pose 1.5d0 0 0)))
+           (links (list (carrier-base carrier) (carrier-hand carrier)))
+           (held (list (carrier-item carrier)))
+           (posture (goal 0 0.5d0 0 0)))
+      (flet ((clearance (x watched &rest obstacles)
+               (multiple-value-list
+                (bullet:mechanism-clearance mechanism (geometry:make-pose x 0 0) posture
+                                            watched (or obstacles (list wall)) 1))))
+        (destructuring-bind (distance body obstacle) (clearance 0.2d0 links)
+          (is (near 0.68d0 1d-9 distance))
+          (is (eq (carrier-hand carrier) body))
+          (is (eq wall obstacle)))
+        (is (near 0.61d0 1d-6 (first (clearance 0.2d0 held))))
+        (is (equal (list 0d0 (carrier-hand carrier) wall) (clearance 1 links)))
+        (is (equal '(1d0 nil nil) (clearance -1 links)))
+        ;; Its own links are where they would be.
+        (is (near (sqrt (+ (expt 0.28d0 2) (expt 0.53d0 2))) 1d-6
+                  (first (clearance 0 (list (carrier-hand carrier)) (carrier-base carrier)))))
+        (setf posture (goal 0 0.2d0 0 0))
+        (is (near (sqrt (+ (expt 0.28d0 2) (expt 0.23d0 2))) 1d-6
+                  (first (clearance 0 (list (carrier-hand carrier)) (carrier-base carrier)))))
+        ;; What is attached goes along, and does not count for the hand that holds it.
+        (is (near (sqrt (+ (expt 0.33d0 2) (expt 0.15d0 2))) 1d-6
+                  (first (clearance 0 links (carrier-item carrier)))))
+        (signals bullet:bullet-error
+          (bullet:mechanism-clearance mechanism (geometry:identity-pose) posture links held 0))))))
+
+(test path-contact-is-where-the-way-is-blocked
+  (with-carrier (carrier)
+    (let* ((world (carrier-world carrier))
+           (mechanism (carrier-mechanism carrier))
+           (post (bullet:add-body world "post" '(:box 0.02d0 0.02d0 2)
+                                  (geometry:make-pose 0 0.5d0 1)))
+           (start (goal 0 0.5d0 0 0)) (goal (goal 0 0.5d0 2 0)))
+      (flet ((contact (watched &rest options)
+               (multiple-value-list
+                (apply #'bullet:path-contact mechanism (geometry:identity-pose) start goal
+                       watched (list post) options))))
+        (destructuring-bind (fraction body obstacle) (contact (list (carrier-hand carrier)))
+          (is (eq (carrier-hand carrier) body))
+          (is (eq post obstacle))
+          ;; Run the same way with time: both agree.
+          (let ((steps (run-carrier carrier :fast
+                                    :steps 1000 :goal goal
+                                    :fractions (let ((fractions (make-array
+                                                                 1000
+                                                                 :element-type 'double-float)))
+                                                 (dotimes (i 1000 fractions)
+                                                   (setf (aref fractions i) (/ (1+ i) 1d3))))
+                                    :watched (list (carrier-hand carrier))
+                                    :obstacles (list post))))
+            (is (near (/ steps 1000) 2d-3 fraction))))
+        (is (< (first (contact (list (carrier-hand carrier)) :contact-distance 0.05d0))
+               (first (contact (list (carrier-hand carrier))))))
+        (is (equal '(nil) (contact (list (carrier-base carrier)))))
+        (bullet:ignore-collision post (carrier-hand carrier) t)
+        (is (equal '(nil) (contact (list (carrier-hand carrier)))))))))

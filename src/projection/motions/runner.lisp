@@ -72,8 +72,7 @@ touched.  Return NIL, or :CONTACT and a list of two bodies."
           (let ((watched (watched-bodies projection watch)))
             (bullet:run-motion (robot-mechanism robot)
                                :steps steps :bases bases :fractions fractions
-                               :start (joint-positions robot)
-                               :goal (or goal (joint-positions robot))
+                               :start (joint-positions robot) :goal goal
                                :fidelity (projection-fidelity projection)
                                :watched watched
                                :obstacles (and watched
