@@ -292,7 +292,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "places") (:file "detecting") (:file "looking")))
                (:module "manipulation" :serial t
                 :components ((:file "column-arm") (:file "extents") (:file "grasps")
-                             (:file "fitting") (:file "arms") (:file "gripper") (:file "ways")
+                             (:file "fitting") (:file "arms") (:file "gripper") (:file "ways") (:file "smooth-ways")
                              (:file "reaching") (:file "picking") (:file "placing")
                              (:file "containers") (:file "modules")))
                (:module "actions" :serial t

@@ -69,7 +69,7 @@ far (m) it is from there."
    poses))
 
 (test each-item-is-picked-up-from-the-counter-and-placed-there
-  (loop for (item y z to) in '((:milk 0.1 0.947 -0.1) (:bowl -0.6 0.8835 -0.4)
+  (loop for (item y z to) in '((:milk 0.1 0.947 0.3) (:bowl -0.6 0.8835 -0.4)
                                (:cereal -0.2 0.962 -0.4))
         do (multiple-value-bind (done lifted away)
                (picked-up-and-placed item (standing-at -1.3 y pi) -2.1 to z)

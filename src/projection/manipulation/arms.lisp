@@ -198,7 +198,7 @@ POSITIONS but the bodies IGNORED."
 (defun way-free-p (projection arm start goal &key ignored)
   "Return true if ARM can go straight in joint space from START to GOAL."
   (let ((robot (projection-robot projection)))
-    (null (bullet:path-clearance (robot-mechanism robot) (base-pose robot) start goal
+    (null (bullet:path-contact (robot-mechanism robot) (base-pose robot) start goal
                                  (append (arm-bodies projection (cddr (arm-links arm)))
                                          (carried-bodies projection arm))
                                  (arm-obstacles projection arm :ignored ignored)))))

@@ -21,16 +21,16 @@ the link HANDLE of the model."
 
 ;;; Which one
 
-(defun plain-name (name)
+(defun spelled-alike (name)
   "Return NAME, a symbol or string, in lower case with _ for -."
   (substitute #\_ #\- (string-downcase name)))
 
 (defun name-means-p (name joint)
   "Return true if NAME is that of JOINT or of the link that it moves, give or take an ending."
-  (let ((name (plain-name name)))
+  (let ((name (spelled-alike name)))
     (loop for candidate in (list (urdf-joint-name joint) (urdf-joint-child joint))
             thereis (loop for ending in '("" "_joint" "_main" "_link")
-                            thereis (string= (plain-name candidate)
+                            thereis (string= (spelled-alike candidate)
                                              (concatenate 'string name ending))))))
 
 (defun fixed-below (model link)
@@ -64,7 +64,7 @@ the link HANDLE of the model."
                                    :key #'scene-part-name))
                         (eq (source:name-keyword whole) fixture))
                     (cond (name (name-means-p name urdf-joint))
-                          (type (search (plain-name type) (plain-name joint-name)))))
+                          (type (search (spelled-alike type) (spelled-alike joint-name)))))
             collect (make-container :fixture fixture :joint joint :urdf-joint urdf-joint
                                     :handle handle))))
 
@@ -138,8 +138,8 @@ which that moves.")
 (defparameter *slip-distance* 0.02d0
   "A hand has slipped off a handle that lags behind it by more than this (m or rad).")
 
-(defun haul (projection arm container way distance)
-  "Move ARM along WAY, whose configurations are equally far apart, while the joint of CONTAINER
+(defun haul (projection container way distance)
+  "Move along WAY, whose configurations are equally far apart, while the joint of CONTAINER
 follows over DISTANCE.  Return NIL, or why it was not done, a string."
   (let* ((robot (projection-robot projection))
          (joint (container-joint container))
@@ -214,7 +214,7 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
     (follow projection arm (reach-way reach))
     (follow projection arm (reach-line reach) :watch :allow-hand :smoothly t)
     (grip projection arm)
-    (let ((problem (haul projection arm container (reach-leaving reach) distance)))
+    (let ((problem (haul projection container (reach-leaving reach) distance)))
       (open-gripper projection arm)
       (let ((moved (- (bullet:joint-position joint) before)))
         (plan:on-event

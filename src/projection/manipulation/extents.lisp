@@ -5,19 +5,15 @@
 
 (in-package #:discrepancy-finder.projection)
 
-(defun dot (a b)
-  (destructuring-bind ((ax ay az) (bx by bz)) (list a b)
-    (+ (* ax bx) (* ay by) (* az bz))))
-
 (defun cross (a b)
   (destructuring-bind ((ax ay az) (bx by bz)) (list a b)
     (list (- (* ay bz) (* az by)) (- (* az bx) (* ax bz)) (- (* ax by) (* ay bx)))))
 
-(defun scaled (vector factor)
+(defun stretched (vector factor)
   (mapcar (lambda (number) (* number factor)) vector))
 
 (defun unit (vector)
-  (scaled vector (/ (sqrt (dot vector vector)))))
+  (stretched vector (/ (sqrt (dot vector vector)))))
 
 (defun pose-position (pose)
   (list (pose-x pose) (pose-y pose) (pose-z pose)))
@@ -76,4 +72,4 @@
   "Return how far (m) SHAPE, at POSE, reaches along the unit vector DIRECTION from the origin of the
 frame in which POSE is given."
   (+ (dot (pose-position pose) direction)
-     (support shape (turned (inverse (moved pose (scaled (pose-position pose) -1))) direction))))
+     (support shape (turned (inverse (moved pose (stretched (pose-position pose) -1))) direction))))

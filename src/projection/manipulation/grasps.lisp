@@ -68,16 +68,16 @@ what it lies on.")
 (defun approaches (closing)
   "Return directions at right angles to the unit vector CLOSING, from above first."
   (let* ((down (if (> (abs (third closing)) 0.9) '(-1d0 0d0 0d0) '(0d0 0d0 -1d0)))
-         (first (unit (mapcar #'- down (scaled closing (dot down closing)))))
+         (first (unit (mapcar #'- down (stretched closing (dot down closing)))))
          (second (cross closing first)))
     (loop for step below +approach-angles+
           for angle = (/ (* 2 pi step) +approach-angles+)
-          collect (unit (mapcar #'+ (scaled first (cos angle)) (scaled second (sin angle)))))))
+          collect (unit (mapcar #'+ (stretched first (cos angle)) (stretched second (sin angle)))))))
 
 (defun middle (shape pose direction)
   "Return the middle of the extent of SHAPE, at POSE, along DIRECTION, and half of its length."
   (let ((far (placed-support shape pose direction))
-        (near (- (placed-support shape pose (scaled direction -1)))))
+        (near (- (placed-support shape pose (stretched direction -1)))))
     (values (/ (+ far near) 2) (/ (- far near) 2))))
 
 (defun candidate-grasp (hand shape pose closing approach)
@@ -90,9 +90,9 @@ and comes along APPROACH; NIL if it is too wide."
           (let ((ahead (min 0 (- (hand-reach hand) half-depth)
                             (- half-depth (hand-tip hand) *tip-clearance*))))
             (make-grasp :side (approach-side approach)
-                        :tool (axes-pose (mapcar #'+ (scaled closing across)
-                                                 (scaled aside (middle shape pose aside))
-                                                 (scaled approach (+ along ahead)))
+                        :tool (axes-pose (mapcar #'+ (stretched closing across)
+                                                 (stretched aside (middle shape pose aside))
+                                                 (stretched approach (+ along ahead)))
                                          approach closing)
                         :depth (max *approach-distance*
                                     (+ half-depth ahead (hand-tip hand) 0.02d0)))))))))
@@ -100,7 +100,7 @@ and comes along APPROACH; NIL if it is too wide."
 (defun thinnest-axes (part)
   "Return those of the CLOSING-AXES of PART along which it is thinnest: as a part of a thing it may
 have neighbours at its other sides."
-  (flet ((thickness (axis) (+ (support part axis) (support part (scaled axis -1)))))
+  (flet ((thickness (axis) (+ (support part axis) (support part (stretched axis -1)))))
     (let* ((axes (closing-axes part)) (least (reduce #'min (mapcar #'thickness axes))))
       (remove-if (lambda (axis) (> (thickness axis) (+ least 1d-6))) axes))))
 

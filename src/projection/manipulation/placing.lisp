@@ -18,7 +18,7 @@
 (defun turned-about-vertical (pose angle)
   "Return POSE turned by ANGLE (rad) about the vertical through its position."
   (compose (make-pose (pose-x pose) (pose-y pose) (pose-z pose) :yaw angle)
-           (moved pose (scaled (pose-position pose) -1))))
+           (moved pose (stretched (pose-position pose) -1))))
 
 (defun placing-arm (projection designator)
   "Return the arm that holds what the placing action DESIGNATOR means."
@@ -99,8 +99,8 @@ when it is parked or in front of the robot; NIL if there are none."
                                                                       projection arm)))))
                    1 -1))
          (height (pose-z tool)))
-    (loop for (x y) in '((0.45 0.2) (0.5 0.1) (0.5 0.3) (0.55 0.2) (0.6 0.2))
-          do (loop for angle in (turns)
+    (loop for angle in (turns)
+          do (loop for (x y) in '((0.45 0.2) (0.5 0.1) (0.5 0.3) (0.55 0.2) (0.6 0.2))
                    for place = (compose base (make-pose x (* side y) 0))
                    for pose = (moved (turned-about-vertical tool angle)
                                      (mapcar #'- (list (pose-x place) (pose-y place) height)

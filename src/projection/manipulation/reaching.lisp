@@ -44,7 +44,11 @@ list of poses on the way, by a configuration near START; or NIL and why not, :UN
             (leaving (if (listp end)
                          (way-through projection arm there end)
                          (straight-way projection arm there tool end))))
-        (when (and back leaving)
+        (when (and back leaving
+                   ;; From a handle the hand has to get away where it has come to.
+                   (or (not (listp end))
+                       (straight-way projection arm (first (last leaving)) (first (last end))
+                                     (advanced (first (last end)) (- *approach-distance*)))))
           (setf reason :collision)
           (let ((before (first (last back))))
             (when (and (free-p projection arm there :ignored (append target ignored))

@@ -102,7 +102,7 @@ if none is found."
 
 (defun between-poses (from to fraction)
   "Return the pose at FRACTION of the way from FROM to TO, which must be turned alike."
-  (moved from (scaled (mapcar #'- (pose-position to) (pose-position from)) fraction)))
+  (moved from (stretched (mapcar #'- (pose-position to) (pose-position from)) fraction)))
 
 (defun way-through (projection arm start poses)
   "Return a way of ARM from START with its tool at each of POSES, which are near each other; NIL if

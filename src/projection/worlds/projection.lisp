@@ -26,6 +26,8 @@
            :documentation "What the arms hold: a list of (arm item . attachment), oldest first.")
    (fidelity :initarg :fidelity :initform :fast :reader projection-fidelity
              :documentation "How motions are stepped: :FAST or :FULL.")
+   (memory :initform '() :accessor projection-memory
+           :documentation "A property list of what process modules keep in mind.")
    (observer :initform nil :accessor projection-observer
              :documentation "A function that is called after each performed designator, or NIL."))
   (:documentation "A scene as a physical world, in which plans are performed."))
