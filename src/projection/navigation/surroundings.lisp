@@ -46,8 +46,14 @@
 
 (defun touches-at-p (projection place)
   "Return true if PROJECTION's robot, as it is now, would touch something at PLACE."
-  (declare (ignore projection place))
-  t)
+  (let ((robot (projection-robot projection)))
+    (destructuring-bind (x y yaw) place
+      (<= (bullet:mechanism-clearance (robot-mechanism robot)
+                                      (make-pose x y (standing-height robot) :yaw yaw)
+                                      (joint-positions robot)
+                                      (watched-bodies projection :all)
+                                      (solid-bodies projection) 1d-3)
+          0))))
 
 (defun without-pairs-at (footing place)
   "Return FOOTING without the pairs of pieces that overlap at PLACE."
