@@ -18,7 +18,7 @@
    (joint-acceleration 4.0 "m/s^2 or rad/s^2")
    (gripper-speed 0.1 "m/s")
    (pad-radius 0.012 "of the friction torque of the finger pads, m")
-   (clearance 0.1 "height by which the gripper lifts what it holds, m")
+   (clearance 0.15 "height by which the gripper lifts what it holds, m")
    (camera-range 3.0 "distance up to which the camera sees, m")
    (camera-field-of-view 1.0 "from the left to the right side of the picture, rad")
    (camera-vertical-field-of-view 0.8 "from the lower to the upper side of the picture, rad")

@@ -16,25 +16,12 @@
   "Drive to the location ?TARGET."
   (perform (a motion (type going) (target ?target))))
 
-(defun out-of-the-way-p (projection arm)
-  "Return true if ARM of PROJECTION's robot is parked, or holds something close to the robot."
-  (let ((robot (projection-robot projection)))
-    (if (held-item projection (arm-roles-name arm))
-        (let ((tool (compose (inverse (base-pose robot))
-                             (robot-link-pose robot (arm-roles-tool arm)))))
-          (and (<= (pose-x tool) 0.65d0) (<= (abs (pose-y tool)) 0.45d0)))
-        (loop for joint in (arm-roles-joints arm)
-              for parked in (arm-roles-parked arm)
-              always (< (abs (- parked (joint-position robot joint))) 1d-3)))))
-
 (defun arms-in-the-way-p ()
-  "Return true if the robot of the projection in which a plan runs has an arm in the way when it
-drives."
+  "Return true if the robot of the projection in which a plan runs has an arm that is not parked."
   (let* ((projection (plan:current-executive))
          (robot (and (typep projection 'projection) (projection-robot projection))))
     (and robot
-         (notevery (lambda (arm) (out-of-the-way-p projection arm))
-                   (scene-part-arms (robot-part robot))))))
+         (notevery (lambda (arm) (parked-p projection arm)) (robot-arms robot)))))
 
 (def-cram-function go-without-collisions (?location)
   "Drive to the location ?LOCATION with the arms parked; to its next solution where the robot does

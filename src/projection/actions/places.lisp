@@ -88,7 +88,7 @@ is farthest from those before."
   (cond ((typep thing 'plan:object-designator) (first (designated-items projection thing)))
         ((and thing (symbolp thing) (find-item projection thing)) (source:name-keyword thing))))
 
-(defun standing-pose (projection name point)
+(defun pose-standing-on (projection name point)
   "Return the pose at which the item NAME stands on POINT, turned to the robot as it is now."
   (let* ((base (base-pose (projection-robot projection)))
          (upright (scene-body-pose (projection-scene projection) name))
@@ -125,7 +125,7 @@ is farthest from those before."
   "Return the poses of the item NAME on POINTS of PART that are free, the nearest first."
   (let ((base (base-pose (projection-robot projection))))
     (remove-if-not (lambda (pose) (free-place-p projection name pose part))
-                   (mapcar (lambda (point) (standing-pose projection name point))
+                   (mapcar (lambda (point) (pose-standing-on projection name point))
                            (stable-sort (copy-list points) #'<
                                         :key (lambda (point) (planar-distance base point)))))))
 

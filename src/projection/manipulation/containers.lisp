@@ -21,16 +21,12 @@ the link HANDLE of the model."
 
 ;;; Which one
 
-(defun spelled-alike (name)
-  "Return NAME, a symbol or string, in lower case with _ for -."
-  (substitute #\_ #\- (string-downcase name)))
-
 (defun name-means-p (name joint)
   "Return true if NAME is that of JOINT or of the link that it moves, give or take an ending."
-  (let ((name (spelled-alike name)))
+  (let ((name (plain-name name)))
     (loop for candidate in (list (urdf-joint-name joint) (urdf-joint-child joint))
             thereis (loop for ending in '("" "_joint" "_main" "_link")
-                            thereis (string= (spelled-alike candidate)
+                            thereis (string= (plain-name candidate)
                                              (concatenate 'string name ending))))))
 
 (defun fixed-below (model link)
@@ -64,7 +60,7 @@ the link HANDLE of the model."
                                    :key #'scene-part-name))
                         (eq (source:name-keyword whole) fixture))
                     (cond (name (name-means-p name urdf-joint))
-                          (type (search (spelled-alike type) (spelled-alike joint-name)))))
+                          (type (search (plain-name type) (plain-name joint-name)))))
             collect (make-container :fixture fixture :joint joint :urdf-joint urdf-joint
                                     :handle handle))))
 

@@ -88,6 +88,9 @@ tool, before, before)."
     (nearest-turns (projection-robot projection) (arm-joints arm) positions
                    (joint-positions (projection-robot projection)))))
 
+(defparameter *carrying-height* 1.05d0
+  "The height (m) at which something is carried, if it is not higher already.")
+
 (defun carrying-positions (projection arm)
   "Return positions in which ARM holds what it holds as upright as it does now, where its tool is
 when it is parked or in front of the robot; NIL if there are none."
@@ -99,15 +102,32 @@ when it is parked or in front of the robot; NIL if there are none."
                                                                       projection arm)))))
                    1 -1))
          (height (pose-z tool)))
-    (loop for angle in (turns)
-          do (loop for (x y) in '((0.45 0.2) (0.5 0.1) (0.5 0.3) (0.55 0.2) (0.6 0.2))
-                   for place = (compose base (make-pose x (* side y) 0))
-                   for pose = (moved (turned-about-vertical tool angle)
-                                     (mapcar #'- (list (pose-x place) (pose-y place) height)
-                                             (pose-position tool)))
-                   do (dolist (positions (solve projection arm pose present :count 2 :restarts 4))
-                        (when (free-p projection arm positions)
-                          (return-from carrying-positions positions)))))))
+    ;; Above what stands in the way of the base, if the arm can.
+    (loop for height in (remove-duplicates (list (max height *carrying-height*) height))
+          do (loop for angle in (turns)
+                   do (loop for (x y) in '((0.45 0.2) (0.5 0.1) (0.5 0.3) (0.55 0.2) (0.6 0.2))
+                            for place = (compose base (make-pose x (* side y) 0))
+                            for pose = (moved (turned-about-vertical tool angle)
+                                              (mapcar #'- (list (pose-x place) (pose-y place)
+                                                                height)
+                                                      (pose-position tool)))
+                            do (dolist (positions (solve projection arm pose present
+                                                         :count 2 :restarts 4))
+                                 (when (free-p projection arm positions)
+                                   (return-from carrying-positions positions))))))))
+
+(defun joints-of-arm (projection arm)
+  "Return the list of the positions (m or rad) of the joints of ARM."
+  (loop for joint in (arm-joints arm)
+        collect (aref (joint-positions (projection-robot projection)) joint)))
+
+(defun parked-p (projection arm)
+  "Return true if ARM is where PARK-ARM has left it, or would leave it with an empty hand."
+  (let ((positions (joints-of-arm projection arm)))
+    (or (equal positions (getf (projection-memory projection) arm))
+        (and (null (held-item projection (arm-name arm)))
+             (every (lambda (position parked) (< (abs (- position parked)) 1d-3))
+                    positions (arm-parked arm))))))
 
 (defun park-arm (projection arm)
   "Take ARM out of the way."
@@ -116,7 +136,8 @@ when it is parked or in front of the robot; NIL if there are none."
                    (parked-positions-of projection arm)))
          (start (joint-positions (projection-robot projection)))
          (way (plan-way projection arm start goal)))
-    (follow projection arm (or way (list goal)))))
+    (follow projection arm (or way (list goal)))
+    (setf (getf (projection-memory projection) arm) (joints-of-arm projection arm))))
 
 (defun park-arms (projection designator)
   "Take the arms that DESIGNATOR, an action, names out of the way, or all arms."

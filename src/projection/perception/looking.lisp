@@ -32,7 +32,7 @@ forward, or NIL if there is no such direction."
 fixture; NIL if there is none."
   (let ((robot (projection-robot projection))
         (item (find name (projection-items projection) :key #'car :test #'same-name-p)))
-    (cond ((named-frame-number robot name) (robot-link-pose robot name))
+    (cond ((frame-number robot name) (robot-link-pose robot name))
           (item (bullet:body-pose (cdr item)))
           (t (multiple-value-bind (link fixture) (part-link projection name)
                (and link (fixture-link-pose projection link fixture)))))))
