@@ -59,7 +59,8 @@ The environment variable CXX names another compiler than g++."))
                "alexandria" "command-line-arguments")
   :pathname "src/interface/"
   :serial t
-  :components ((:file "package") (:file "repl") (:file "command-line") (:file "subcommands")
+  :components ((:file "package") (:file "repl") (:file "command-line") (:file "simulate")
+               (:file "subcommands")
                (:file "theory-commands") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
@@ -105,8 +106,11 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((asdf-user::shared-library-source "discrepancy-finder-bullet")
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
-               (:file "shapes") (:file "bodies") (:file "attachments") (:file "queries")
-               (:file "rays") (:file "mechanisms") (:file "inverse-kinematics")))
+               (:file "shapes") (:file "hulls") (:file "inertia") (:file "bodies")
+               (:file "attachments") (:file "joints")
+               (:file "queries") (:file "contacts") (:file "rays") (:file "sweeps")
+               (:file "checkpoints") (:file "mechanisms") (:file "inverse-kinematics")
+               (:file "motion-runs") (:file "clearances")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -264,26 +268,43 @@ The environment variable CXX names another compiler than g++."))
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
   :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "alexandria"
-               "xmls")
+               "cffi" "salza2")
   :pathname "src/projection/"
   :serial t
   :components ((:file "package") (:file "conditions")
                (:module "models" :serial t
-                :components ((:file "urdf")))
+                :components ((:file "xml") (:file "xml-reader") (:file "numbers") (:file "inertia") (:file "packages")
+                             (:file "meshes") (:file "links") (:file "joints") (:file "urdf")
+                             (:file "groups")))
                (:module "scenes" :serial t
                 :components ((:file "clauses") (:file "parameters") (:file "scene")
                              (:file "materials") (:file "robots") (:file "reading")))
                (:module "worlds" :serial t
-                :components ((:file "robot") (:file "projection") (:file "building")
-                             (:file "observations") (:file "performing")))
+                :components ((:file "outlines") (:file "blueprints") (:file "robot")
+                             (:file "projection") (:file "building") (:file "observations")
+                             (:file "performing")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "runner") (:file "head")))
+                :components ((:file "profiles") (:file "runner") (:file "head")
+                             (:file "torso")))
                (:module "navigation" :serial t
-                :components ((:file "going")))
+                :components ((:file "terrain") (:file "footing") (:file "base-paths")
+                             (:file "surroundings") (:file "base-motion") (:file "going")))
                (:module "perception" :serial t
-                :components ((:file "surface") (:file "detecting")))
+                :components ((:file "hulls") (:file "surface") (:file "seeing")
+                             (:file "places") (:file "detecting") (:file "looking")))
                (:module "manipulation" :serial t
-                :components ((:file "column-arm")))))
+                :components ((:file "column-arm") (:file "extents") (:file "grasps")
+                             (:file "fitting") (:file "arms") (:file "gripper") (:file "ways")
+                             (:file "smooth-ways") (:file "reaching") (:file "picking")
+                             (:file "placing") (:file "containers") (:file "modules")))
+               (:module "actions" :serial t
+                :components ((:file "places") (:file "base-poses") (:file "moving")
+                             (:file "searching") (:file "environment") (:file "fetching")
+                             (:file "transporting") (:file "groundings")))
+               (:module "pictures" :serial t
+                :components ((:file "chunks") (:file "viewpoints") (:file "png")
+                             (:file "ray-casting") (:file "top-view")
+                             (:file "view-world") (:file "frames")))))
 
 (asdf:defsystem "discrepancy-finder/statistics"
   :description "Distributions, regression, and rules that decide when there are enough samples."
@@ -306,8 +327,8 @@ The environment variable CXX names another compiler than g++."))
                (:file "abstraction") (:file "parsing") (:file "parsing-observers")
                (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
-               (:file "results") (:file "search") (:file "report") (:file "replay")
-               (:file "replay-file")))
+               (:file "results") (:file "search") (:file "report") (:file "scene-runs")
+               (:file "replay") (:file "replay-file")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."
@@ -373,9 +394,12 @@ The environment variable CXX names another compiler than g++."))
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
-                             (:file "rays") (:file "mechanisms")))
+                             (:file "rays") (:file "mechanisms") (:file "motion-runs")))
                (:module "projection" :serial t
-                :components ((:file "two-regions") (:file "head") (:file "perception")))
+                :components ((:file "two-regions") (:file "head") (:file "perception")
+                             (:file "seeing") (:file "manipulation")
+                             (:file "manipulation-kitchen") (:file "actions-symbolic")
+                             (:file "pictures")))
                (:module "models"
                 :serial t
                 :components ((:file "kitchen-theory")))
@@ -389,6 +413,9 @@ The environment variable CXX names another compiler than g++."))
                              (:file "regions") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
+               (:module "kitchen" :pathname "projection/" :serial t
+                :components ((:file "kitchen") (:file "kitchen-effects")
+                             (:file "kitchen-fidelity")))
                (:file "interface") (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
@@ -402,4 +429,5 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "evaluator")
                (:file "household") (:file "clingo") (:file "bounded") (:file "progression")
-               (:file "exploration") (:file "calibration") (:file "benchmarks")))
+               (:file "exploration") (:file "calibration") (:file "transport")
+               (:file "benchmarks")))

@@ -52,52 +52,66 @@
     (setf (gethash (body-name body) (world-body-names world)) body)
     (vector-push-extend body (world-body-vector world))))
 
-(defun make-body (world name shape pose kind mass inertia friction rolling-friction restitution)
-  "Return a new body, registered in WORLD.  Only POSE, SHAPE and INERTIA are still to be checked."
-  (let* ((owner (format nil "body ~a" name))
-         (shape-id (make-shape world shape owner))
-         (moments (if (eq kind :dynamic) (inertia-of inertia shape mass owner) '(0d0 0d0 0d0))))
-    (destructuring-bind (ix iy iz) moments
-      (with-pose-numbers (pose)
-        (invoke ('add-body pointer world)
-            (let ((id (%body-new pointer shape-id
-                                 (ecase kind (:static 0) (:dynamic 1) (:kinematic 2))
-                                 x y z qx qy qz qw mass ix iy iz
-                                 friction rolling-friction restitution)))
-              (when (>= id 0)
-                (register-body (%make-body world id name shape kind mass)))
-              id)
-          (:bad-number (bad-pose name)))))
+(defun make-body (world name shape pose kind mass inertia inertial-pose material)
+  "Return a new body, registered in WORLD.  Only the poses, SHAPE and INERTIA are still to be
+checked; MATERIAL is a list of five numbers."
+  (let ((numbers (make-array 23 :element-type 'double-float))
+        (owner (format nil "body ~a" name)))
+    (replace numbers (geometry:pose-components pose))
+    (setf (aref numbers 7) mass)
+    (replace numbers (geometry:pose-components inertial-pose) :start1 11)
+    (replace numbers material :start1 18)
+    (with-shape (shape-pointer shape owner)
+      (when (eq kind :dynamic)
+        (replace numbers (inertia-of inertia shape mass owner) :start1 8))
+      (cffi:with-pointer-to-vector-data (pointer numbers)
+        (let ((mass-numbers (cffi:inc-pointer pointer (* 8 7)))
+              (material-numbers (cffi:inc-pointer pointer (* 8 18))))
+          (invoke ('add-body world-pointer world)
+              (let ((id (%body-new world-pointer shape-pointer
+                                   (ecase kind (:static 0) (:dynamic 1) (:kinematic 2))
+                                   pointer mass-numbers material-numbers)))
+                (when (>= id 0)
+                  (register-body (%make-body world id name shape kind mass)))
+                id)
+            (:bad-number (bad-pose name))))))
     (find-body world name)))
 
 (defun add-body (world name shape pose
                  &key (mass 0d0) (kind (if (member mass '(0 0f0 0d0)) :static :dynamic)) inertia
-                   (friction 0.5d0) (rolling-friction 0d0) (restitution 0d0))
-  "Add to WORLD a body with NAME, SHAPE (see shapes.lisp) and the pose POSE of its centre of mass;
-return it.  KIND is :STATIC, :KINEMATIC or :DYNAMIC; the last needs a positive MASS (kg), and is
-the default if MASS is given.  INERTIA is a list of three principal moments (kg m^2), by default
-those of SHAPE filled evenly.  The friction of two bodies in contact is the product of their
-FRICTION, and so is their RESTITUTION; ROLLING-FRICTION (m) also acts against spinning on a spot.
-Signals BULLET-ERROR, which names the body and the thing, if NAME is taken, SHAPE malformed, POSE
-no finite position with a unit quaternion, or a number out of its range."
+                   (inertial-pose (geometry:identity-pose)) (friction 0.5d0)
+                   (rolling-friction 0d0) (restitution 0d0) (linear-damping 0d0)
+                   (angular-damping 0d0))
+  "Add to WORLD a body with NAME, SHAPE (see shapes.lisp) and its link frame at POSE; return it.
+KIND is :STATIC, :KINEMATIC or :DYNAMIC; the last needs a positive MASS (kg), and is the default if
+MASS is given.  INERTIAL-POSE is the pose in the link frame of the body's principal axes of inertia,
+with its centre of mass as origin; INERTIA is the list of the moments (kg m^2) about them, by
+default those of SHAPE filled evenly about its origin.  The friction of two bodies in contact is the
+product of their FRICTION, and so is their RESTITUTION; ROLLING-FRICTION (m) also acts against
+spinning on a spot; LINEAR-DAMPING and ANGULAR-DAMPING, 0 to 1, are the parts of its velocities that
+the body loses in a second.  Signals BULLET-ERROR, which names the body and the thing, if NAME is
+taken, SHAPE malformed, a pose no finite position with a unit quaternion, or a number out of its
+range."
   (live-pointer world 'add-body)
   (flet ((number (thing value sort)
            (number-of (format nil "the ~a of body ~a" thing name) value 'add-body sort)))
     (let ((mass (number "mass" mass (if (eq kind :dynamic) :positive :not-negative)))
-          (friction (number "friction" friction :not-negative))
-          (rolling-friction (number "rolling friction" rolling-friction :not-negative))
-          (restitution (number "restitution" restitution :fraction)))
+          (material (list (number "friction" friction :not-negative)
+                          (number "rolling friction" rolling-friction :not-negative)
+                          (number "restitution" restitution :fraction)
+                          (number "linear damping" linear-damping :fraction)
+                          (number "angular damping" angular-damping :fraction))))
       (when (find-body world name)
         (fail 'add-body "the world has a body ~a already" name))
-      (unless (geometry:pose-p pose)
-        (fail 'add-body "~s is no pose for body ~a" pose name))
+      (dolist (pose (list pose inertial-pose))
+        (unless (geometry:pose-p pose)
+          (fail 'add-body "~s is no pose for body ~a" pose name)))
       (unless (member kind '(:static :dynamic :kinematic))
         (fail 'add-body "the kind ~s of body ~a is none of :static, :dynamic and :kinematic"
               kind name))
       (when (and (not (eq kind :static)) (consp shape) (eq (first shape) :plane))
         (fail 'add-body "body ~a is ~(~a~), but only static bodies can be planes" name kind))
-      (make-body world name shape pose kind mass inertia friction rolling-friction
-                 restitution))))
+      (make-body world name shape pose kind mass inertia inertial-pose material))))
 
 (defun body-state (body operation)
   "Return the thirteen numbers of the state of BODY in a new vector."
@@ -108,7 +122,7 @@ no finite position with a unit quaternion, or a number out of its range."
     state))
 
 (defun body-pose (body)
-  "Return the pose of the centre of mass of BODY.  Its quaternion comes from a rotation matrix: it
+  "Return the pose of the link frame of BODY.  Its quaternion comes from a rotation matrix: it
 may differ in the last bits, and in sign, from the one that was put in.  Signals BULLET-ERROR if
 the world is closed."
   (let ((state (body-state body 'body-pose)))
@@ -117,15 +131,15 @@ the world is closed."
                               (aref state 4) (aref state 5) (aref state 6))))
 
 (defun body-velocity (body)
-  "Return six values: the linear (m/s) and the angular (rad/s) velocity of BODY along the axes of
-the world.  Signals BULLET-ERROR if the world is closed."
+  "Return six values: the linear (m/s) velocity of the centre of mass of BODY and its angular one
+(rad/s), along the axes of the world.  Signals BULLET-ERROR if the world is closed."
   (let ((state (body-state body 'body-velocity)))
     (declare (type (simple-array double-float (13)) state))
     (values (aref state 7) (aref state 8) (aref state 9)
             (aref state 10) (aref state 11) (aref state 12))))
 
 (defun move-body (body pose)
-  "Move the kinematic BODY to POSE: in the next step it has the velocity that takes it there, so
+  "Move the link frame of the kinematic BODY to POSE: in the next step it has the velocity that takes it there, so
 that it pushes and drags what it touches.  Not moved in the step after that, it stands still.
 Return BODY.  Signals BULLET-ERROR if BODY is not kinematic or POSE no finite position with a unit
 quaternion."

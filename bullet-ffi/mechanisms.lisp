@@ -13,6 +13,8 @@
   (world :pointer) (count :int) (integers :pointer) (numbers :pointer))
 (define-raw %mechanism-pose "dfb_mechanism_pose" :int
   (world :pointer) (mechanism :int) (base :pointer) (positions :pointer) (teleport :int))
+(define-raw %mechanism-read "dfb_mechanism_read" :int
+  (world :pointer) (mechanism :int) (base :pointer) (positions :pointer))
 (define-raw %link-pose "dfb_link_pose" :int
   (world :pointer) (mechanism :int) (link :int) (pose :pointer))
 (define-raw %forward-kinematics "dfb_forward_kinematics" :int
@@ -219,6 +221,18 @@ POSITIONS are not finite."
                              (if teleport 1 0))
           (:bad-number (bad-posture))))))
   mechanism)
+
+(defun mechanism-posture (mechanism)
+  "Return where POSE-MECHANISM or RUN-MOTION last put MECHANISM: the pose of its base and a new
+vector of the positions of its joints; those of joints that mimic another one are what follows from
+it.  Signals BULLET-ERROR if the world is closed."
+  (let ((base (mechanism-base mechanism))
+        (positions (make-positions mechanism)))
+    (cffi:with-pointer-to-vector-data (base-pointer base)
+      (cffi:with-pointer-to-vector-data (positions-pointer positions)
+        (invoke ('mechanism-posture pointer (mechanism-world mechanism))
+            (%mechanism-read pointer (mechanism-id mechanism) base-pointer positions-pointer))))
+    (values (read-pose base) positions)))
 
 (defun link-pose (mechanism index)
   "Return the pose of the link INDEX of MECHANISM in the world, as of the last POSE-MECHANISM or

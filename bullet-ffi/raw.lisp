@@ -25,20 +25,20 @@ seven doubles of a pose."
 (define-raw %world-delete "dfb_world_delete" :int (world :pointer))
 (define-raw %step "dfb_step" :int (world :pointer) (steps :int))
 
+(define-raw %shape-delete "dfb_shape_delete" :int (shape :pointer))
 (define-raw %shape-box "dfb_shape_box" :int
-  (world :pointer) (x :double) (y :double) (z :double))
-(define-raw %shape-sphere "dfb_shape_sphere" :int (world :pointer) (radius :double))
+  (x :double) (y :double) (z :double) (shape :pointer))
+(define-raw %shape-sphere "dfb_shape_sphere" :int (radius :double) (shape :pointer))
 (define-raw %shape-cylinder "dfb_shape_cylinder" :int
-  (world :pointer) (radius :double) (height :double))
+  (radius :double) (height :double) (shape :pointer))
 (define-raw %shape-plane "dfb_shape_plane" :int
-  (world :pointer) (nx :double) (ny :double) (nz :double) (d :double))
+  (nx :double) (ny :double) (nz :double) (d :double) (shape :pointer))
+(define-raw %shape-hull "dfb_shape_hull" :int (count :int) (points :pointer) (shape :pointer))
 (define-raw %shape-compound "dfb_shape_compound" :int
-  (world :pointer) (count :int) (children :pointer) (poses :pointer))
+  (count :int) (children :pointer) (poses :pointer) (shape :pointer))
 
 (define-raw %body-new "dfb_body_new" :int
-  (world :pointer) (shape :int) (kind :int) :pose (mass :double)
-  (ix :double) (iy :double) (iz :double)
-  (friction :double) (rolling-friction :double) (restitution :double))
+  (world :pointer) (shape :pointer) (kind :int) (pose :pointer) (mass :pointer) (material :pointer))
 (define-raw %body-move "dfb_body_move" :int (world :pointer) (body :int) :pose)
 (define-raw %body-place "dfb_body_place" :int (world :pointer) (body :int) :pose)
 (define-raw %body-wake "dfb_body_wake" :int (world :pointer) (body :int))
@@ -53,6 +53,11 @@ seven doubles of a pose."
 
 (define-raw %attach "dfb_attach" :int (world :pointer) (parent :int) (child :int))
 (define-raw %detach "dfb_detach" :int (world :pointer) (attachment :int))
+(define-raw %grip "dfb_grip" :int
+  (world :pointer) (parent :int) (child :int) (point :pointer) (axis :pointer)
+  (capacity :double) (torsion-radius :double))
+(define-raw %attachment-state "dfb_attachment_state" :int
+  (world :pointer) (attachment :int) (utilization :pointer))
 (define-raw %attachment-load "dfb_attachment_load" :int
   (world :pointer) (attachment :int) (load :pointer))
 (define-raw %ignore-collision "dfb_ignore_collision" :int
@@ -76,4 +81,4 @@ seven doubles of a pose."
   (ecase status
     (-1 :bad-world) (-2 :bad-body) (-3 :bad-shape) (-4 :bad-constraint) (-5 :bad-number)
     (-6 :bad-kind) (-7 :too-small) (-8 :no-memory) (-9 :nothing)
-    (-20 :bad-link)))
+    (-10 :bad-checkpoint) (-20 :bad-link)))

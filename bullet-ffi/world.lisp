@@ -27,11 +27,16 @@
 (defun handle-usable-p (handle)
   (and (handle-open handle) (eq (handle-session handle) **session**)))
 
+(defstruct (shape-handle (:include handle) (:constructor make-shape-handle (pointer session))
+                         (:copier nil)))
+
 (defun release (handle)
-  "Delete the foreign world of HANDLE unless it was deleted already."
+  "Delete the foreign world or shape of HANDLE unless it was deleted already."
   (when (and (handle-usable-p handle)
              (eq t (sb-ext:compare-and-swap (handle-open handle) t nil)))
-    (%world-delete (handle-pointer handle))))
+    (if (shape-handle-p handle)
+        (%shape-delete (handle-pointer handle))
+        (%world-delete (handle-pointer handle)))))
 
 (defstruct (world (:constructor %make-world (handle time-step)) (:copier nil))
   "A rigid-body world with gravity, bodies and attachments, which advances in equal time steps."
@@ -40,7 +45,8 @@
   (steps 0 :type (and fixnum unsigned-byte))
   (body-vector (make-array 16 :adjustable t :fill-pointer 0) :type vector :read-only t)
   (body-names (make-hash-table :test #'equal) :type hash-table :read-only t)
-  (attachment-list '() :type list))
+  (attachment-vector (make-array 4 :adjustable t :fill-pointer 0) :type vector :read-only t)
+  (joint-vector (make-array 4 :adjustable t :fill-pointer 0) :type vector :read-only t))
 
 (setf (documentation 'world-time-step 'function) "Return the time step of WORLD (s).")
 
@@ -93,11 +99,12 @@ status is :NOTHING."
     (:bad-world "the world is closed")
     (:bad-body "the bodies are not two bodies of this world")
     (:bad-shape "the shape cannot be used in this way")
-    (:bad-constraint "the attachment is detached")
+    (:bad-constraint "the attachment or joint is not there any more")
     (:bad-number "a number is out of range")
     (:bad-kind "the kind of the body does not allow it")
     (:too-small "the vector is too short")
     (:no-memory "the memory is used up")
+    (:bad-checkpoint "the checkpoint is not one of such a world")
     (:bad-link "the link, or one of the joints, is none of the mechanism")))
 
 (defun in-range-p (number sort)

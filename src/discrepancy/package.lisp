@@ -29,6 +29,7 @@ search, replay.")
    #:run-seconds #:run-validity #:run-tolerances #:run-final-values #:run-ending
    #:run-step #:run-step-designator #:run-step-outcome #:run-step-state
    #:run-step-failure #:run-text
+   #:run-in-scene #:scene-run #:scene-run-ending #:scene-run-hash #:scene-run-text
    #:judge-run #:judgement #:judgement-verdict #:judgement-divergence
    #:divergence #:divergence-step #:divergence-fluents #:divergence-kind
    ;; search

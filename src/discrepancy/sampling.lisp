@@ -243,8 +243,8 @@ empty."
   (flet ((part (key) (if (eq key axis) value (coordinate pose key))))
     (make-pose (part :x) (part :y) (part :z) :yaw (part :yaw))))
 
-(defun sample-poses (domain sample)
-  "Return the property list of the poses that the bodies of DOMAIN's scene have in SAMPLE."
+(defun sample-poses (scene sample)
+  "Return the property list of the poses that the bodies of SCENE have in SAMPLE."
   (let ((poses '()))
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
@@ -252,7 +252,7 @@ empty."
           when (keywordp body)
             do (setf (getf poses body)
                      (pose-with (or (getf poses body)
-                                    (projection:scene-body-pose (domain-scene domain) body))
+                                    (projection:scene-body-pose scene body))
                                 (parameter-axis parameter) value)))
     poses))
 

@@ -9,4 +9,4 @@
    ;; numbers
    #:decimal-double
    ;; algebra
-   #:compose #:inverse #:pose= #:planar-distance))
+   #:compose #:inverse #:rotate #:pose= #:planar-distance))

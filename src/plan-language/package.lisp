@@ -96,7 +96,7 @@ perform.")
    ;; executive
    #:perform #:perform-with #:generic-perform #:plan-known-p #:*control-functions*
     #:call-plan-function
-   #:call-with-executive #:with-executive #:choose-strand
+   #:call-with-executive #:with-executive #:current-executive #:choose-strand
    #:begin-turn #:ready-strands #:gives-way-p
    #:strand-number #:strand-task #:strand-evaporating-p #:task-parent #:task-strand #:branch-code
    #:perform-task-p #:all-needed-p

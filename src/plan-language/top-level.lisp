@@ -115,12 +115,15 @@ NIL, and return its values."
 
 (defun call-in-implicit-top-level (function)
   "Call FUNCTION, which may perform and may also make top-levels, and return its values: in a
-top-level that gives way to those, unless one runs already."
+top-level that gives way to those, unless one runs already.  FUNCTION itself is no plan: handlers
+around it see what it signals at once."
   (if *current-task*
       (funcall function)
-      (call-in-top-level (lambda ()
-                           (let ((*implicit-task* *current-task*))
-                             (funcall function))))))
+      (let ((handlers (current-handlers)))
+        (call-in-top-level (lambda ()
+                             (let ((*implicit-task* *current-task*))
+                               (with-handlers (handlers)
+                                 (funcall function))))))))
 
 (defmacro top-level (&body body)
   "Evaluate BODY as a program of its own and return its values.  What it fails with is signaled

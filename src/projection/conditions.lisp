@@ -73,9 +73,24 @@ beyond the limit of what it means, or outside of its tolerance."))
                      (unknown-body-scene condition) (unknown-body-name condition))))
   (:documentation "Signaled when a body is named that a scene does not have."))
 
+(define-condition impossible-joint-position (projection-error)
+  ((name :initarg :name :reader impossible-joint-position-name :documentation "The joint.")
+   (value :initarg :value :reader impossible-joint-position-value
+          :documentation "What was given.")
+   (lower :initarg :lower :reader impossible-joint-position-lower
+          :documentation "The lowest position (m or rad), or NIL.")
+   (upper :initarg :upper :reader impossible-joint-position-upper
+          :documentation "The highest position (m or rad), or NIL."))
+  (:report (lambda (condition stream)
+             (with-slots (name value lower upper) condition
+               (let ((*read-default-float-format* 'double-float))
+                 (format stream "The joint ~a cannot be at ~a; it goes~@[ from ~a~]~@[ to ~a~]."
+                         name value lower upper)))))
+  (:documentation "Signaled when a joint is given an initial position beyond its limits."))
+
 (define-condition missing-robot-part (projection-error)
   ((part :initarg :part :reader missing-robot-part-part
-         :documentation "The part in question, :HEAD or :CAMERA.")
+         :documentation "The part in question, :HEAD, :CAMERA or :TORSO.")
    (scene :initarg :scene :reader missing-robot-part-scene :documentation "The scene."))
   (:report (lambda (condition stream)
              (with-slots (part scene) condition
@@ -84,8 +99,16 @@ beyond the limit of what it means, or outside of its tolerance."))
                        scene part
                        (ecase part
                          (:head "(:head pan-joint tilt-joint)")
-                         (:camera "(:camera link)"))))))
+                         (:camera "(:camera link)")
+                         (:torso "(:torso joint)"))))))
   (:documentation "Signaled when a robot is to do what it has no part for."))
+
+(define-condition picture-error (projection-error)
+  ((reason :initarg :reason :reader picture-error-reason
+           :documentation "What is wrong, as a string without a full stop."))
+  (:report (lambda (condition stream)
+             (format stream "~a." (picture-error-reason condition))))
+  (:documentation "Signaled when a picture cannot be drawn as asked for, or not be written."))
 
 (define-condition unknown-joint (projection-error)
   ((name :initarg :name :reader unknown-joint-name :documentation "The name in question.")

@@ -1,4 +1,4 @@
-;;;; The manipulation process module: actions of type picking-up and placing.
+;;;; Picking up and placing by an arm that a carriage lifts on a column.
 ;;;;
 ;;;; The gripper comes from above.  An item within reach of the shoulder is grasped at the middle of
 ;;;; its top by a fixed constraint between gripper and item, lifted, and carried in front of the
@@ -97,18 +97,8 @@ there, and take the arm back."
           (move-arm projection high-lift shoulder extension)
           (retract-arm projection high-lift))))))
 
-(defun designated-item (projection designator)
-  "Return the name of the item that the object designator DESIGNATOR means, by :name or :type."
-  (or (first (designated-items projection designator))
-      (plan:fail 'plan:perception-object-not-found
-                 :object designator
-                 :description (format nil "there is no ~(~a~)"
-                                      (or (plan:desig-prop-value designator :name)
-                                          (plan:desig-prop-value designator :type)
-                                          "object")))))
-
-(defmethod execute-designator ((projection projection) (class (eql :action))
-                               (type (eql :picking-up)) designator)
+(defun pick-up-by-column (projection designator)
+  "Pick up the object of DESIGNATOR, an action, with the arm on a column; return the item's name."
   (let* ((name (designated-item projection (plan:desig-prop-value designator :object)))
          (body (cdr (assoc name (projection-items projection))))
          (pose (bullet:body-pose body))
@@ -123,8 +113,8 @@ there, and take the arm back."
                          (bullet:attach (gripper-body (projection-robot projection)) body))))
     name))
 
-(defmethod execute-designator ((projection projection) (class (eql :action))
-                               (type (eql :placing)) designator)
+(defun place-by-column (projection designator)
+  "Place what the arm on a column holds as DESIGNATOR, an action, says; return the item's name."
   (let ((target (plan:designated-pose (plan:desig-prop-value designator :target)))
         (name (held-item projection)))
     (unless target

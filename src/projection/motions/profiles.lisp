@@ -66,6 +66,7 @@ the last one is 1."
                        (profile-fraction profile (* step (float +time-step+ 1d0))))))
     fractions))
 
+(declaim (inline interpolate))
 (defun interpolate (start goal fraction)
   "Return the number at FRACTION of the way from START to GOAL."
   (+ start (* fraction (- goal start))))

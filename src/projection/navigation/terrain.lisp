@@ -7,12 +7,20 @@
 
 (in-package #:discrepancy-finder.projection)
 
-(defstruct (terrain (:constructor make-terrain (sills wheels suspension)) (:copier nil))
+(defstruct (terrain (:constructor %make-terrain (sills wheels suspension reach)) (:copier nil))
   "SILLS are the pieces that are driven over, WHEELS the places (x . y) of the wheels in the frame of
-the base: front left and right, rear left and right."
+the base: front left and right, rear left and right; no one feels a sill farther than REACH (m) from
+the middle of the base."
   (sills '() :type list :read-only t)
   (wheels '() :type list :read-only t)
-  (suspension 0.05d0 :type double-float :read-only t))
+  (suspension 0.05d0 :type double-float :read-only t)
+  (reach 0d0 :type double-float :read-only t))
+
+(defun make-terrain (sills wheels suspension)
+  "Return the terrain with the pieces SILLS for a base with WHEELS."
+  (%make-terrain sills wheels suspension
+                 (+ suspension (loop for (x . y) in wheels
+                                     maximize (sqrt (+ (* x x) (* y y)))))))
 
 (defparameter *wheel-inset* 0.08d0
   "The distance (m) of the wheels from the edges of the base.")
@@ -28,14 +36,12 @@ the base: front left and right, rear left and right."
     (destructuring-bind ((rear front) (right left)) (list (extent 0) (extent 1))
       (list (cons front left) (cons front right) (cons rear left) (cons rear right)))))
 
-(defun inside-distance (piece x y)
-  "Return how far (m) the point X, Y is inside of PIECE, negative outside."
-  (- (gap-along-edges (piece-polygon piece) (vector-of-two x y) 0d0 0d0)))
-
-(defun vector-of-two (x y)
-  (let ((vector (make-array 2 :element-type 'double-float)))
-    (setf (aref vector 0) x (aref vector 1) y)
-    vector))
+(defun outside-distance (piece x y)
+  "Return a lower bound of how far (m) the point X, Y is outside of PIECE; it is exact, and negative,
+inside."
+  (let ((point (make-array 2 :element-type 'double-float)))
+    (setf (aref point 0) x (aref point 1) y)
+    (gap-along-edges piece point 0d0 0d0)))
 
 (defun smooth-step (fraction)
   "Return the smooth step from 0 to 1 that has no velocity and no acceleration at its ends."
@@ -48,14 +54,17 @@ the base: front left and right, rear left and right."
   (let ((length (terrain-suspension terrain)))
     (loop for sill in (terrain-sills terrain)
           maximize (* (piece-high sill)
-                      (smooth-step (+ 0.5d0 (/ (inside-distance sill x y) length)))))))
+                      (smooth-step (- 0.5d0 (/ (outside-distance sill x y) length)))))))
 
-(defun level-p (terrain)
-  (null (terrain-sills terrain)))
+(defun level-at-p (terrain x y)
+  "Return true if no wheel of a base at X, Y can stand on anything but the ground of TERRAIN."
+  (declare (double-float x y))
+  (loop for sill in (terrain-sills terrain)
+        always (> (outside-distance sill x y) (terrain-reach terrain))))
 
-(defun standing-pose (terrain x y z yaw)
+(defun ground-pose (terrain x y z yaw)
   "Return the pose of the base at X, Y, turned by YAW, at the height Z above the ground of TERRAIN."
-  (if (level-p terrain)
+  (if (level-at-p terrain x y)
       (make-pose x y z :yaw yaw)
       (let ((sine (sin yaw)) (cosine (cos yaw)))
         (destructuring-bind (front-left front-right rear-left rear-right)

@@ -50,21 +50,22 @@ the keywords KNOWN; none but :arm can occur twice."
                      (first clause) (second clause) name))
     (rest option)))
 
+(defun coordinate-p (object)
+  (and (realp object) (< -1000000000 object 1000000000)))
+
 (defun clause-pose (clause file)
   "Return the pose that the :at option of CLAUSE gives."
   (let ((numbers (option-value clause :at file)))
     (unless (and (<= 3 (length numbers) 4)
-                 (every (lambda (number)
-                          (and (realp number) (< -1000000000 number 1000000000)))
-                        numbers))
+                 (every #'coordinate-p numbers))
       (scene-problem file clause "(:at x y z [yaw]) was expected in ~(~s~) ~(~a~)"
                      (first clause) (second clause)))
     (destructuring-bind (x y z &optional (yaw 0)) numbers
       (make-pose x y z :yaw yaw))))
 
 (defun option-names (clause name file &optional count)
-  "Return the arguments of the option NAME of CLAUSE, symbols, as keywords, NIL without option; COUNT
-is how many there must be."
+  "Return the arguments of the option NAME of CLAUSE, symbols, as keywords, NIL without option;
+COUNT is how many there must be."
   (let ((option (find-option (clause-options clause) name)))
     (unless (and (every #'parameter-name-p (rest option))
                  (or (null option) (null count) (= (length (rest option)) count)))

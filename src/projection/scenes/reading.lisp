@@ -15,6 +15,19 @@
       (scene-problem file clause "the item ~(~a~) must have one link, with a mass and a shape"
                      (second clause)))))
 
+(defun clause-grasps (clause file)
+  "Return the grasps that the :grasps option of CLAUSE lists: keywords and (keyword x y z)."
+  (let ((option (find-option (clause-options clause) :grasps)))
+    (loop for grasp in (rest option)
+          collect (cond ((parameter-name-p grasp) (source:name-keyword grasp))
+                        ((and (consp grasp) (parameter-name-p (first grasp))
+                              (= (length grasp) 4) (every #'coordinate-p (rest grasp)))
+                         (cons (source:name-keyword (first grasp))
+                               (mapcar #'decimal-double (rest grasp))))
+                        (t (scene-problem file (if (consp grasp) grasp option)
+                                          "a grasp is a name or (name x y z), not ~(~s~)"
+                                          grasp))))))
+
 (defun parse-part (clause file)
   "Return the SCENE-PART that CLAUSE of the scene in FILE describes."
   (destructuring-bind (kind &optional name model-file &rest options) clause
@@ -23,6 +36,8 @@
     (check-options clause options (rest (assoc kind *part-options*)) file)
     (let ((model (read-urdf (merge-pathnames (source:native-path model-file)
                                              (source:native-path file)))))
+      (unless (eq kind :robot)
+        (check-dynamic (urdf-model-links model)))
       (when (eq kind :item)
         (check-item model clause file))
       (multiple-value-bind (roles arms) (and (eq kind :robot) (robot-roles clause model file))
@@ -32,7 +47,7 @@
                                     (or (option-name clause :type file)
                                         (source:name-keyword name)))
                          :material (option-name clause :material file)
-                         :grasps (option-names clause :grasps file)
+                         :grasps (clause-grasps clause file)
                          :roles roles :arms arms :form clause)))))
 
 (defun check-clause (clause form file)
@@ -80,10 +95,12 @@
             (check-materials scene)
             scene))))))
 
-(defun load-scene (file)
-  "Return the SCENE in FILE.  Nothing in it is evaluated.  Signals SOURCE-ERROR, SCENE-ERROR or
-URDF-ERROR, which name the file."
-  (let ((forms (source:read-source file :package '#:discrepancy-finder.projection)))
+(defun load-scene (file &key (package-path *package-path*))
+  "Return the SCENE in FILE.  Nothing in it is evaluated.  PACKAGE-PATH is a list of folders in
+which the packages of package:// names in URDF files are looked for before others.  Signals
+SOURCE-ERROR, SCENE-ERROR or URDF-ERROR, which name the file."
+  (let ((forms (source:read-source file :package '#:discrepancy-finder.projection))
+        (*package-path* package-path))
     (unless (and (= (length forms) 1) (consp (first forms))
                  (symbolp (first (first forms)))
                  (string= (first (first forms)) "DEFINE-SCENE")

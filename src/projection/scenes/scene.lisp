@@ -8,7 +8,8 @@
 ;;;;     (:fixture NAME "file.urdf" (:at x y z [yaw]) [(:material M)])
 ;;;;                                      what stands fast; its joints, if any, can move
 ;;;;     (:item NAME "file.urdf" (:at x y z [yaw]) [(:type TYPE)] [(:material M)]
-;;;;            [(:grasps GRASP*)])       a rigid body; without :type its name is also its type
+;;;;            [(:grasps GRASP*)])       a rigid body; without :type its name is also its type;
+;;;;                                      a GRASP is a NAME or (NAME x y z)
 ;;;;     (:robot NAME "file.urdf" (:at x y z [yaw]) role*))                             robots.lisp
 ;;;; File names are relative to the scene's file.  LOAD-SCENE reads it.
 
@@ -17,7 +18,8 @@
 (defstruct (scene-part (:copier nil))
   "A model of a scene: KIND is :fixture, :item or :robot.  TYPE and GRASPS are those of an item;
 ROLES, a property list of names of joints and links, and ARMS, a list of ARM-ROLES, those of a
-robot; MATERIAL is a name.  FORM is what it was read from.  PREPARED is what worlds keep here."
+robot; MATERIAL is a name.  FORM is what it was read from.  PREPARED is for what is made of the part
+once and used in every projection."
   (name nil :type keyword :read-only t)
   (kind :item :type keyword :read-only t)
   (model nil :type urdf-model :read-only t)
@@ -67,8 +69,8 @@ documentation can be NIL.")
        t))
 
 (defun scene-parameter (scene name)
-  "Return the value, a double float, of the parameter or tolerance NAME (a symbol) in SCENE.  Signals
-UNKNOWN-PARAMETER."
+  "Return the value, a double float, of the parameter or tolerance NAME (a symbol) in SCENE.
+Signals UNKNOWN-PARAMETER."
   (let* ((name (source:name-keyword name))
          (given (assoc name (scene-parameters scene)))
          (tolerance (assoc name (scene-tolerances scene)))
@@ -170,8 +172,9 @@ its range.  Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
   (scene-part-type (scene-part scene name)))
 
 (defun scene-item-grasps (scene name)
-  "Return the list of the grasps (keywords) that the item NAME, a symbol, of SCENE allows, best
-first; NIL if SCENE says nothing.  Signals UNKNOWN-BODY."
+  "Return the list of the grasps that the item NAME, a symbol, of SCENE allows, best first; NIL if
+SCENE says nothing.  A grasp is a keyword or (keyword x y z) with the point to be grasped (m) in the
+item's frame.  Signals UNKNOWN-BODY."
   (check-movable scene name)
   (scene-part-grasps (scene-part scene name)))
 

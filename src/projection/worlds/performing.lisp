@@ -35,14 +35,18 @@ execution fails, DESIGNATOR-NOT-UNDERSTOOD if it cannot be interpreted.")
 
 (defmethod plan:perform-with ((projection projection) designator position)
   (declare (ignore position))
-  (if (and (not (executes-p projection designator)) (plan:plan-known-p designator))
+  ;; What a user has a plan for is performed by that, also where a process module is for it.
+  (if (or (desig:user-grounded-p designator)
+          (and (not (executes-p projection designator)) (plan:plan-known-p designator)))
       (call-next-method)
       (plan:call-on-main
        (lambda ()
          ;; The float traps of C are set once an execution; the plan itself has those of Lisp.
-         (foreign:with-c-float-traps
-           (execute-designator projection (plan:designator-class-keyword designator)
-                               (plan:desig-prop-value designator :type) designator))))))
+         ;; On another thread than the task's, what resolves locations still finds the projection.
+         (plan:with-executive (projection)
+           (foreign:with-c-float-traps
+             (execute-designator projection (plan:designator-class-keyword designator)
+                                 (plan:desig-prop-value designator :type) designator)))))))
 
 (defun misunderstood (designator reason)
   "Signal that DESIGNATOR is not understood for REASON, a format control without arguments."

@@ -16,8 +16,8 @@
    (world :initarg :world :reader projection-world :documentation "The Bullet world.")
    (robot :initarg :robot :reader projection-robot
           :documentation "The ROBOT, or NIL.")
-   (fixtures :initarg :fixtures :reader projection-fixtures
-             :documentation "The list of the bodies of the fixtures, drawers included.")
+   (solids :initarg :solids :reader projection-solids
+           :documentation "The list of the SOLIDs that the fixtures are, drawers included.")
    (items :initarg :items :reader projection-items
           :documentation "List of (name . body).")
    (joints :initarg :joints :initform '() :reader projection-joints
@@ -26,6 +26,8 @@
            :documentation "What the arms hold: a list of (arm item . attachment), oldest first.")
    (fidelity :initarg :fidelity :initform :fast :reader projection-fidelity
              :documentation "How motions are stepped: :FAST or :FULL.")
+   (memory :initform '() :accessor projection-memory
+           :documentation "A property list of what process modules keep in mind.")
    (observer :initform nil :accessor projection-observer
              :documentation "A function that is called after each performed designator, or NIL."))
   (:documentation "A scene as a physical world, in which plans are performed."))
@@ -52,6 +54,10 @@ IMPOSSIBLE-PARAMETER."
         (projection nil))
     (unwind-protect (setf projection (build-world scene world fidelity poses joints))
       (unless projection (bullet:close-world world)))))
+
+(defun projection-fixtures (projection)
+  "Return the list of the bodies of PROJECTION's fixtures, drawers included."
+  (mapcar #'solid-body (projection-solids projection)))
 
 (defun close-projection (projection)
   "Free the world of PROJECTION."

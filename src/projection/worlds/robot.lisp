@@ -1,117 +1,50 @@
 ;;;; The robot: a planar base with a tree of links, posed by forward kinematics.
 ;;;;
-;;;; A ROBOT holds the pose of its base and the positions of its joints, one for each link.  Its
-;;;; links have numbers, parents first: FRAME-NUMBER finds them by the name of the link or of the
-;;;; joint that moves it, or by a role that the scene gives.  Fixtures and items are built by the same
-;;;; means; they just stay where they are put.
+;;;; A ROBOT holds the pose of its base and the positions of its joints, one for each link; its links
+;;;; are kinematic bodies, which a mechanism of the Bullet layer moves.  Links have numbers, parents
+;;;; first: FRAME-NUMBER finds them by the name of the link or of the joint that moves it, or by a
+;;;; role that the scene gives.
 
 (in-package #:discrepancy-finder.projection)
 
-(defstruct (link-frame (:copier nil))
-  "A link of a robot: JOINT connects it to the link with the number PARENT (both NIL for the root).
-NAME is the name of its body."
-  (link nil :type urdf-link :read-only t)
-  (joint nil :type (or null urdf-joint) :read-only t)
-  (parent nil :type (or null fixnum) :read-only t)
-  (name "" :type string :read-only t))
-
 (defclass robot ()
   ((part :initarg :part :reader robot-part :type scene-part)
+   (blueprint :initarg :blueprint :reader robot-blueprint :type blueprint)
    (base-pose :initarg :base-pose :accessor base-pose :type pose
               :documentation "The pose of the root link.")
-   (frames :reader robot-frames :type simple-vector
-           :documentation "The link frames, parents first.")
-   (positions :accessor joint-positions :type (simple-array double-float (*))
-              :documentation "For each frame the position (m or rad) of its joint.")
-   (bodies :reader robot-bodies :type simple-vector
-           :documentation "For each frame its body in the world, or NIL.")
-   (poses :reader link-poses :type simple-vector
-          :documentation "For each frame its pose in the world, by the last UPDATE-POSES."))
+   (standing-height :initarg :standing-height :reader standing-height :type double-float
+                    :documentation "The height (m) of the root link on level ground.")
+   (positions :initarg :positions :accessor joint-positions
+              :type (simple-array double-float (*))
+              :documentation "For each link the position (m or rad) of its joint.")
+   (bodies :initarg :bodies :reader robot-bodies :type simple-vector
+           :documentation "For each link its body in the world, or NIL.")
+   (mechanism :initarg :mechanism :reader robot-mechanism
+              :documentation "The mechanism of the Bullet layer."))
   (:documentation "The robot of a projection."))
 
-(defun make-frames (part)
-  (let ((model (scene-part-model part)) (frames '()) (names '()))
-    (flet ((add (name joint)
-             (push (make-link-frame :link (find name (urdf-model-links model)
-                                                :key #'urdf-link-name :test #'string=)
-                                    :joint joint
-                                    :parent (and joint (position (urdf-joint-parent joint)
-                                                                 (reverse names) :test #'string=))
-                                    :name (format nil "~(~a~)/~a" (scene-part-name part) name))
-                   frames)
-             (push name names)))
-      (add (urdf-model-root model) nil)
-      (dolist (joint (urdf-model-joints model))
-        (add (urdf-joint-child joint) joint)))
-    (coerce (nreverse frames) 'simple-vector)))
+(defmethod print-object ((robot robot) stream)
+  (print-unreadable-object (robot stream :type t)
+    (format stream "~(~a~) at ~a" (scene-part-name (robot-part robot)) (base-pose robot))))
 
-(defun initial-position (joint)
-  "Return the position of JOINT that is nearest to 0 within its limits."
-  (if joint
-      (max (or (urdf-joint-lower joint) 0d0) (min 0d0 (or (urdf-joint-upper joint) 0d0)))
-      0d0))
+(defun robot-frames (robot)
+  "Return the vector of the link frames of ROBOT, parents first."
+  (blueprint-frames (robot-blueprint robot)))
 
-(defmethod initialize-instance :after ((robot robot) &key)
-  (with-slots (frames positions poses bodies) robot
-    (setf frames (make-frames (robot-part robot))
-          positions (map '(simple-array double-float (*))
-                         (lambda (frame) (initial-position (link-frame-joint frame)))
-                         frames)
-          bodies (make-array (length frames) :initial-element nil)
-          poses (make-array (length frames)))
-    (update-poses robot)))
-
-;;; Forward kinematics
-
-(defun joint-motion (joint position)
-  "Return the pose of JOINT's child in its origin frame at POSITION."
-  (declare (double-float position))
-  (destructuring-bind (ax ay az) (urdf-joint-axis joint)
-    (declare (double-float ax ay az))
-    (ecase (urdf-joint-type joint)
-      (:prismatic (quaternion-pose (* ax position) (* ay position) (* az position)
-                                   0d0 0d0 0d0 1d0))
-      ((:revolute :continuous)
-       (let ((sine (sin (/ position 2))))
-         (quaternion-pose 0d0 0d0 0d0 (* ax sine) (* ay sine) (* az sine)
-                          (cos (/ position 2))))))))
-
-(defun update-poses (robot)
-  "Compute the poses of all links of ROBOT from its base pose and joint positions; return them."
-  (let ((poses (link-poses robot)) (positions (joint-positions robot)))
-    (declare (simple-vector poses) (type (simple-array double-float (*)) positions))
-    (loop for frame across (the simple-vector (robot-frames robot))
-          for index of-type fixnum from 0
-          for joint = (link-frame-joint frame)
-          do (setf (svref poses index)
-                   (if joint
-                       (let ((origin (compose (svref poses (link-frame-parent frame))
-                                              (urdf-joint-origin joint))))
-                         (if (eq (urdf-joint-type joint) :fixed)
-                             origin
-                             (compose origin (joint-motion joint (aref positions index)))))
-                       (base-pose robot))))
-    poses))
-
-(defun named-frame-number (robot name)
-  "Return the number of the frame of ROBOT whose link, or else whose joint, has the NAME, a string,
-or NIL."
-  (or (position name (robot-frames robot) :test #'string=
-                                          :key (lambda (frame)
-                                                 (urdf-link-name (link-frame-link frame))))
-      (position-if (lambda (frame)
-                     (and (link-frame-joint frame)
-                          (string= name (urdf-joint-name (link-frame-joint frame)))))
-                   (robot-frames robot))))
+;;; Links and joints
 
 (defun role-name (robot role)
   "Return the name of the joint or link that has ROLE, a keyword, in ROBOT, or NIL."
   (getf (scene-part-roles (robot-part robot)) role))
 
+(defun named-frame-number (robot name)
+  "Return the number of the link of ROBOT that has the NAME, a string, or whose joint has; or NIL."
+  (values (gethash name (blueprint-numbers (robot-blueprint robot)))))
+
 (defun frame-number (robot role-or-name)
-  "Return the number of the frame whose link, or whose joint, is ROLE-OR-NAME in ROBOT: a role (a
-keyword such as :LIFT, :TORSO, :PAN or :CAMERA) or the name of a link or joint (a string).  NIL if
-there is none."
+  "Return the number of the link of ROBOT that is ROLE-OR-NAME, or whose joint is: a role (a keyword
+such as :LIFT, :TORSO, :PAN or :CAMERA) or the name of a link or joint (a string).  NIL if there is
+none."
   (let ((name (if (stringp role-or-name) role-or-name (role-name robot role-or-name))))
     (and name (named-frame-number robot name))))
 
@@ -123,10 +56,6 @@ there is none."
   "Return the position (m or rad) of the joint that is ROLE-OR-NAME in ROBOT."
   (aref (joint-positions robot) (frame-number robot role-or-name)))
 
-(defun robot-link-pose (robot role-or-name)
-  "Return the pose in the world of the link that FRAME-NUMBER finds in ROBOT."
-  (svref (update-poses robot) (frame-number robot role-or-name)))
-
 (defun robot-arm (robot name)
   "Return the ARM-ROLES of the arm NAME, a symbol, of ROBOT, or NIL."
   (part-arm (robot-part robot) name))
@@ -135,31 +64,32 @@ there is none."
   "Return the names (keywords) of the arms of ROBOT that the scene names."
   (mapcar #'arm-roles-name (scene-part-arms (robot-part robot))))
 
+;;; Forward kinematics
+
+(defun numbered-link-pose (robot number)
+  "Return the pose in the world of the link NUMBER of ROBOT, where base and joints have it now."
+  (bullet:forward-kinematics (robot-mechanism robot) (base-pose robot) (joint-positions robot)
+                             number))
+
+(defun robot-link-pose (robot role-or-name)
+  "Return the pose in the world of the link that FRAME-NUMBER finds in ROBOT."
+  (numbered-link-pose robot (frame-number robot role-or-name)))
+
+(defun update-poses (robot)
+  "Return the vector of the poses of all links of ROBOT from its base pose and joint positions."
+  (let ((poses (make-array (length (robot-frames robot)))))
+    (dotimes (number (length poses) poses)
+      (setf (svref poses number) (numbered-link-pose robot number)))))
+
 (defun gripper-pose (robot)
   "Return the pose of the tip of ROBOT's gripper."
-  (svref (update-poses robot) (frame-number robot :gripper)))
+  (robot-link-pose robot :gripper))
 
 (defun camera-pose (robot)
   "Return the pose of ROBOT's camera, which looks along its x axis."
-  (svref (update-poses robot) (frame-number robot :camera)))
+  (robot-link-pose robot :camera))
 
 ;;; Bodies
-
-(defun add-links (robot world kind)
-  "Add the links of ROBOT, or of another model, to WORLD as bodies of KIND, with their own masses if
-that is :DYNAMIC.  Return the bodies."
-  (loop for frame across (robot-frames robot)
-        for index from 0
-        for pose across (update-poses robot)
-        for link = (link-frame-link frame)
-        when (urdf-link-shape link)
-          collect (setf (svref (robot-bodies robot) index)
-                        (bullet:add-body world (link-frame-name frame)
-                                         (urdf-link-shape link) pose
-                                         :kind kind
-                                         :mass (if (eq kind :dynamic)
-                                                   (urdf-link-mass link)
-                                                   0d0)))))
 
 (defun link-bodies (robot)
   "Return the bodies of ROBOT's links."
@@ -170,13 +100,65 @@ that is :DYNAMIC.  Return the bodies."
   (let ((number (frame-number robot role-or-name)))
     (and number (svref (robot-bodies robot) number))))
 
-(defun update-links (robot)
-  "Move the bodies of ROBOT's links to their poses; Bullet derives their velocities."
-  (let ((poses (update-poses robot)))
-    (declare (simple-vector poses))
-    (loop for body across (the simple-vector (robot-bodies robot))
-          for pose across poses
-          when body do (bullet:move-body body pose))))
-
 (defun gripper-body (robot)
   (robot-link-body robot :gripper))
+
+(defun link-below-p (robot number ancestor)
+  "Return true if the link NUMBER of ROBOT is the link ANCESTOR or hangs on it."
+  (loop for candidate = number then (link-frame-parent (svref (robot-frames robot) candidate))
+        while candidate
+          thereis (= candidate ancestor)))
+
+(defun hand-bodies (robot arm)
+  "Return the bodies of the hand of ARM, the name of an arm of ROBOT: of the child of the arm's last
+joint and all that hangs on it."
+  (let ((wrist (frame-number robot (first (last (arm-roles-joints (robot-arm robot arm)))))))
+    (loop for body across (robot-bodies robot)
+          for number from 0
+          when (and body (link-below-p robot number wrist))
+            collect body)))
+
+;;; Making
+
+(defun link-specs (frames numbers bodies)
+  "Return the vector of what BULLET:MAKE-MECHANISM wants to know of the links FRAMES with BODIES."
+  (map 'simple-vector
+       (lambda (frame body)
+         (let ((joint (link-frame-joint frame))
+               (name (urdf-link-name (link-frame-link frame))))
+           (if joint
+               (bullet:link-spec name (link-frame-parent frame) (urdf-joint-type joint)
+                                 (urdf-joint-origin joint) (urdf-joint-axis joint)
+                                 (urdf-joint-lower joint) (urdf-joint-upper joint)
+                                 (let ((mimic (urdf-joint-mimic joint)))
+                                   (and mimic
+                                        (cons (gethash (first mimic) numbers) (rest mimic))))
+                                 body)
+               (bullet:link-spec name nil :fixed (identity-pose) '(1d0 0d0 0d0) nil nil nil
+                                 body))))
+       frames bodies))
+
+(defun add-robot (scene part world base-pose)
+  "Add PART, the robot of SCENE, to WORLD with its base at BASE-POSE and return the ROBOT."
+  (let* ((blueprint (part-blueprint part))
+         (frames (blueprint-frames blueprint))
+         (surface (part-surface scene part))
+         (bodies (map 'simple-vector
+                      (lambda (frame)
+                        (let ((shape (urdf-link-shape (link-frame-link frame))))
+                          (and shape
+                               (apply #'bullet:add-body world (link-frame-name frame) shape
+                                      (compose base-pose (link-frame-rest frame))
+                                      :kind :kinematic surface))))
+                      frames))
+         (mechanism (bullet:make-mechanism
+                     world (link-specs frames (blueprint-numbers blueprint) bodies))))
+    (make-instance 'robot :part part :blueprint blueprint :base-pose base-pose
+                          :standing-height (pose-z base-pose)
+                          :positions (copy-seq (blueprint-positions blueprint))
+                          :bodies bodies :mechanism mechanism)))
+
+(defun teleport-robot (robot)
+  "Put the bodies of ROBOT's links, and what they hold, to where base and joints have them, at rest."
+  (bullet:pose-mechanism (robot-mechanism robot) (base-pose robot) (joint-positions robot)
+                         :teleport t))
