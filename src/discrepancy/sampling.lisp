@@ -21,7 +21,12 @@ of the scene, with the MEANING that the scene tells."
   (meaning nil :type (or null string) :read-only t)
   (region nil :type (or null region) :read-only t))
 
-(setf (documentation 'parameter-min 'function)
+(setf (documentation 'parameter-body 'function)
+      "Return the body of a parameter (a keyword), the name of its joint (a string), or NIL if it is a
+tolerance."
+      (documentation 'parameter-axis 'function)
+      "Return the axis of a parameter, :POSITION of a joint, or the name of a tolerance."
+      (documentation 'parameter-min 'function)
       "Return the least value of a parameter (m, rad, or the unit of the tolerance)."
       (documentation 'parameter-max 'function)
       "Return the bound (m, rad) that the values of a parameter do not reach.")
