@@ -390,7 +390,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "rays") (:file "mechanisms") (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
-                             (:file "seeing") (:file "manipulation")
+                             (:file "worlds") (:file "navigation") (:file "seeing") (:file "manipulation")
                              (:file "manipulation-kitchen") (:file "actions-symbolic")))
                (:module "statistics"
                 :serial t
@@ -400,7 +400,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "random") (:file "abstraction") (:file "search")
                              (:file "replay")
-                             (:file "table-top")))
+                             (:file "table-top") (:file "tolerances")))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
