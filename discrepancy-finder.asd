@@ -361,8 +361,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "verification") (:file "coverage") (:file "cpl-operators")
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
-                :components ((:file "bullet") (:file "queries") (:file "rays")
-                             (:file "worlds") (:file "joints") (:file "grips") (:file "hulls")
+                :components ((:file "bullet") (:file "queries") (:file "worlds")
+                             (:file "rays") (:file "joints") (:file "grips") (:file "hulls")
                              (:file "contacts") (:file "checkpoints")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")))
