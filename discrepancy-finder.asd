@@ -108,7 +108,8 @@ The environment variable CXX names another compiler than g++."))
                (:file "shapes") (:file "hulls") (:file "inertia") (:file "bodies")
                (:file "attachments") (:file "joints")
                (:file "queries") (:file "contacts") (:file "rays") (:file "sweeps")
-               (:file "checkpoints")))
+               (:file "checkpoints") (:file "mechanisms") (:file "inverse-kinematics")
+               (:file "motion-runs") (:file "clearances")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -363,7 +364,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
                              (:file "rays") (:file "joints") (:file "grips") (:file "hulls")
-                             (:file "contacts") (:file "checkpoints")))
+                             (:file "contacts") (:file "checkpoints") (:file "mechanisms")
+                             (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")))
                (:module "discrepancy"

@@ -15,6 +15,15 @@
 #include "queries.inc"
 #include "rays.inc"
 #include "sweeps.inc"
+#include "mechanisms.inc"
+#include "kinematics.inc"
+#include "courses.inc"
+#include "watches.inc"
+#include "held-bodies.inc"
+#include "surveys.inc"
+#include "motion-runs.inc"
+#include "clearances.inc"
+#include "checkpoint-data.inc"
 #include "checkpoints.inc"
 
 extern "C" {

@@ -1,0 +1,324 @@
+;;;; Tests of motions of mechanisms: both fidelities against each other and against closed forms.
+
+(in-package #:discrepancy-finder.tests)
+
+(def-suite motion-runs :in all)
+(in-suite motion-runs)
+
+(defun ramp (steps distance acceleration &key (braking acceleration))
+  "Return a vector with the way (m) after each of STEPS of 1/240 s of a drive at 1 m/s, or slower if
+DISTANCE is too short, with ACCELERATION and BRAKING (m/s^2)."
+  (let* ((a (float acceleration 1d0)) (b (float braking 1d0))
+         (ramps (+ (/ 1 (* 2 a)) (/ 1 (* 2 b))))
+         (speed (min 1d0 (sqrt (/ distance ramps))))
+         (up (/ speed a)) (down (/ speed b))
+         (end (+ up down (/ (- distance (* ramps speed speed)) speed)))
+         (ways (make-array steps :element-type 'double-float)))
+    (loop for i from 1 to steps
+          for time = (/ i 240d0)
+          do (setf (aref ways (1- i))
+                   (cond ((< time up) (/ (* a time time) 2))
+                         ((< time (- end down)) (+ (/ (* speed up) 2) (* speed (- time up))))
+                         ((< time end) (- distance (/ (* b (expt (- end time) 2)) 2)))
+                         (t (float distance 1d0)))))
+    ways))
+
+(defun straight-bases (ways &key (turn 0d0))
+  "Return the base poses for WAYS along x, turned by TURN (rad) for each m."
+  (let ((bases (make-array (* 7 (length ways)) :element-type 'double-float)))
+    (loop for way across ways
+          for i from 0 by 7
+          do (replace bases (geometry:pose-components
+                             (geometry:make-pose way 0 0 :yaw (* turn way)))
+                      :start1 i))
+    bases))
+
+(defstruct carrier
+  "A world with a robot: a base of 0.4 m, a sliding lift of 0.5 m, a hand that turns about z."
+  world mechanism base hand item attachment)
+
+(defun build-carrier (world &key (capacity 50) (arm 0.5d0) (point (geometry:identity-pose))
+                             (mass 0.5d0) (hold t) (lift 0.5d0))
+  "Add a floor and a robot that holds a box of MASS at its hand, which is ARM before it."
+  (let* ((base (bullet:add-body world "base" '(:box 0.4d0 0.4d0 0.3d0)
+                                (geometry:make-pose 0 0 0.2d0) :kind :kinematic))
+         (hand (bullet:add-body world "hand" '(:box 0.04d0 0.1d0 0.04d0)
+                                (geometry:make-pose 0 0 0) :kind :kinematic))
+         (mechanism
+           (bullet:make-mechanism
+            world
+            (list (bullet:link-spec "base" nil :fixed (geometry:make-pose 0 0 0.2d0) '(1 0 0)
+                                    nil nil nil base)
+                  (bullet:link-spec "lift" 0 :prismatic (geometry:make-pose 0 0 0) '(0 0 1) 0 1)
+                  (bullet:link-spec "shoulder" 1 :revolute (geometry:make-pose 0 0 0) '(0 0 1))
+                  (bullet:link-spec "hand" 2 :revolute (geometry:make-pose arm 0 0.2d0) '(0 1 0)
+                                    nil nil nil hand))))
+         (positions (bullet:make-positions mechanism)))
+    (setf (aref positions 1) lift)
+    (unless (bullet:find-body world :floor) (add-floor world))
+    (bullet:pose-mechanism mechanism (geometry:identity-pose) positions :teleport t)
+    (let ((item (bullet:add-body world "item" '(:box 0.06d0 0.06d0 0.2d0)
+                                 (geometry:compose (bullet:link-pose mechanism 3)
+                                                   (geometry:make-pose 0.06d0 0 0))
+                                 :mass mass)))
+      (make-carrier :world world :mechanism mechanism :base base :hand hand :item item
+                    :attachment (and hold
+                                     (bullet:attach hand item :capacity capacity :point point
+                                                              :axis '(0 1 0)
+                                                              :torsion-radius 0.012d0))))))
+
+(defmacro with-carrier ((carrier &rest options) &body body)
+  (let ((world (gensym "WORLD")))
+    `(bullet:with-world (,world)
+       (let ((,carrier (build-carrier ,world ,@options)))
+         ,@body))))
+
+(defun run-carrier (carrier fidelity &rest options)
+  (apply #'bullet:run-motion (carrier-mechanism carrier) :fidelity fidelity options))
+
+(defun goal (&rest numbers)
+  (coerce (mapcar (lambda (x) (float x 1d0)) numbers) '(simple-array double-float (*))))
+
+(defun swing-and-drive (carrier fidelity)
+  "Drive 2 m and turn by 1 rad, and at the same time lift, turn and tilt the hand."
+  (let ((ways (ramp 700 2 1)))
+    (run-carrier carrier fidelity :steps 700 :bases (straight-bases ways :turn 0.5d0)
+                                  :fractions (map '(simple-array double-float (*))
+                                                  (lambda (way) (/ way 2)) ways)
+                                  :goal (goal 0 0.8d0 1 -0.5d0))))
+
+(test fidelities-agree-on-the-way-of-a-held-body
+  (with-carrier (full)
+    (with-carrier (fast)
+      (is (= 700 (swing-and-drive full :full)))
+      (is (eq :done (nth-value 1 (swing-and-drive fast :fast))))
+      (is (geometry:pose= (bullet:body-pose (carrier-hand full))
+                          (bullet:body-pose (carrier-hand fast))))
+      (is (geometry:pose= (bullet:link-pose (carrier-mechanism fast) 3)
+                          (bullet:body-pose (carrier-hand fast))))
+      (is (> 1d-6 (pose-gap (bullet:body-pose (carrier-item full))
+                            (bullet:body-pose (carrier-item fast)))))
+      (is (= (bullet:world-time (carrier-world full)) (bullet:world-time (carrier-world fast))))
+      (is (near 700/240 1d-9 (bullet:world-time (carrier-world fast))))
+      (is-true (bullet:attachment-live-p (carrier-attachment fast))))))
+
+(test fidelities-agree-on-the-load-of-a-grip
+  (flet ((loads (fidelity)
+           (with-carrier (carrier :point (geometry:make-pose 0.01d0 0 0.03d0))
+             (let* ((ways (ramp 700 2 1))
+                    (bases (straight-bases ways :turn 0.5d0)))
+               (loop for i below 690
+                     do (run-carrier carrier fidelity
+                                     :steps 1 :bases (subseq bases (* 7 i) (* 7 (1+ i)))
+                                     :start (goal 0 (+ 0.5d0 (/ (if (zerop i) 0
+                                                                    (aref ways (1- i))) 8)) 0 0)
+                                     :fractions (goal 1)
+                                     :goal (goal 0 (+ 0.5d0 (/ (aref ways i) 8)) 0 0))
+                     collect (bullet:attachment-utilization (carrier-attachment carrier)))))))
+    (loop for full in (loads :full)
+          for fast in (loads :fast)
+          for i from 0
+          do (is (near full (* 3d-2 full) fast)))))
+
+;;; Losing
+
+(defun drive-and-brake (carrier fidelity braking)
+  "Drive until a stop from 1 m/s with BRAKING (m/s^2), and a second longer; return in which step the
+item was lost, and where it is then."
+  (let* ((ways (ramp 800 1.5d0 1 :braking braking))
+         (bases (straight-bases ways))
+         (attachment (carrier-attachment carrier)))
+    (loop for i below 800
+          do (run-carrier carrier fidelity :steps 1 :bases (subseq bases (* 7 i) (* 7 (1+ i))))
+          until (bullet:attachment-lost-p attachment)
+          finally (return (values (and (< i 800) i)
+                                  (bullet:body-pose (carrier-item carrier)))))))
+
+(test fidelities-agree-on-what-is-lost-and-when
+  (loop for (capacity braking lost) in '((4.9d0 1 t) (5.05d0 2 nil) (5.05d0 3 t) (50 3 nil))
+        for results = (loop for fidelity in '(:full :fast)
+                            collect (with-carrier (carrier :capacity capacity
+                                                           :point (geometry:make-pose 0 0 0))
+                                      (multiple-value-list
+                                       (drive-and-brake carrier fidelity braking))))
+        do (destructuring-bind ((full full-pose) (fast fast-pose)) results
+             (is (eq lost (not (null full))) "lost at ~a with ~a N and ~a m/s^2" full capacity
+                 braking)
+             (is (eql full fast))
+             (is (> 1d-6 (pose-gap full-pose fast-pose))))))
+
+(test what-is-lost-falls-alike-in-both-fidelities
+  (flet ((outcome (fidelity)
+           (with-carrier (carrier :capacity 5.05d0)
+             (let ((ways (ramp 1000 1.5d0 1 :braking 3)))
+               (run-carrier carrier fidelity :steps 1000 :bases (straight-bases ways))
+               (is-true (bullet:attachment-lost-p (carrier-attachment carrier)))
+               (is-true (bullet:at-rest-p (carrier-world carrier)))
+               (bullet:body-pose (carrier-item carrier))))))
+    (let ((full (outcome :full)) (fast (outcome :fast)))
+      (is (< (geometry:pose-z full) 0.2d0))
+      (is (> 1d-3 (pose-gap full fast)) "~a, but ~a" full fast))))
+
+;;; Contacts
+
+(defun add-box (world name pose &rest options)
+  (apply #'bullet:add-body world name '(:box 0.2d0 2 2) pose options))
+
+(test motion-ends-before-a-contact
+  (dolist (fidelity '(:full :fast))
+    (with-carrier (carrier)
+      (let* ((wall (add-box (carrier-world carrier) "wall" (geometry:make-pose 1.5d0 0 0)))
+             (bodies (list (carrier-base carrier) (carrier-hand carrier) (carrier-item carrier)))
+             (bases (straight-bases (ramp 800 2 1))))
+        (multiple-value-bind (steps reason body obstacle)
+            (run-carrier carrier fidelity :steps 800 :bases bases :watched bodies
+                                          :obstacles (list wall))
+          (is (eq :contact reason))
+          (is (eq (carrier-item carrier) body))
+          (is (eq wall obstacle))
+          ;; The item's front is 0.59 m before the base.
+          (is (near 0.81d0 5d-3 (distance (carrier-base carrier))))
+          (is (<= (distance (carrier-base carrier)) 0.81d0))
+          (is (near (round (* 240 (+ 1 0.31d0))) 2 steps))
+          (is (near (/ steps 240) 1d-9 (bullet:world-time (carrier-world carrier)))))
+        ;; The robot can go back.
+        (let ((back (straight-bases (map '(simple-array double-float (*))
+                                         (lambda (way) (- 0.8d0 way)) (ramp 800 0.5d0 1)))))
+          (is (eq :done (nth-value 1 (run-carrier carrier fidelity
+                                                  :steps 800 :bases back :watched bodies
+                                                  :obstacles (list wall))))))))))
+
+(test unwatched-and-ignored-bodies-do-not-stop-a-motion
+  (dolist (fidelity '(:full :fast))
+    (with-carrier (carrier)
+      (let ((wall (add-box (carrier-world carrier) "wall" (geometry:make-pose 1.5d0 0 0)))
+            (bases (straight-bases (ramp 800 2 1))))
+        (bullet:ignore-collision wall (carrier-item carrier) t)
+        (bullet:ignore-collision wall (carrier-hand carrier) t)
+        (is (eq :done (nth-value 1 (run-carrier carrier fidelity
+                                                :steps 300 :bases bases
+                                                :watched (list (carrier-item carrier)
+                                                               (carrier-hand carrier))
+                                                :obstacles (list wall)))))))))
+
+(test bodies-that-touch-at-the-start-may-part
+  (dolist (fidelity '(:full :fast))
+    (with-carrier (carrier :hold nil)
+      (let* ((world (carrier-world carrier))
+             (wall (add-box world "wall" (geometry:make-pose -0.3d0 0 1)))
+             (base (carrier-base carrier)))
+        (flet ((drive (way)
+                 (run-carrier carrier fidelity :steps 200 :bases (straight-bases (ramp 200 way 1))
+                                               :watched (list base) :obstacles (list wall))))
+          (bullet:pose-mechanism (carrier-mechanism carrier) (geometry:identity-pose)
+                                 (goal 0 0.5d0 0 0) :teleport t)
+          (is (< 0 (bullet:penetration base wall) 1d-9))
+          (is (eq :done (nth-value 1 (drive 0.3d0)))))))))
+
+(test a-wider-contact-distance-stops-earlier
+  (with-carrier (carrier)
+    (let ((wall (add-box (carrier-world carrier) "wall" (geometry:make-pose 1.5d0 0 0))))
+      (run-carrier carrier :fast :steps 800 :bases (straight-bases (ramp 800 2 1))
+                                 :watched (list (carrier-item carrier)) :obstacles (list wall)
+                                 :contact-distance 0.1d0)
+      (is (near 0.71d0 5d-3 (distance (carrier-base carrier)))))))
+
+(test moving-links-push-loose-bodies-in-both-fidelities
+  (flet ((pushed (fidelity)
+           (with-carrier (carrier :hold nil)
+             (let* ((world (carrier-world carrier))
+                    (cube (bullet:add-body world "cube" '(:box 0.1d0 0.1d0 0.1d0)
+                                           (geometry:make-pose 0.7d0 0.05d0 0.05d0) :mass 1)))
+               (bullet:step-world world 480)
+               (is-true (bullet:asleep-p cube))
+               (run-carrier carrier fidelity :steps 1000
+                                             :bases (straight-bases (ramp 1000 1 1)))
+               (bullet:body-pose cube)))))
+    (let ((full (pushed :full)) (fast (pushed :fast)))
+      (is (< 1.2d0 (geometry:pose-x full)))
+      (is (> 1d-2 (pose-gap full fast)) "~a, but ~a" full fast))))
+
+(test motions-are-bit-identical
+  (flet ((state (fidelity)
+           (with-carrier (carrier :capacity 5.05d0)
+             (run-carrier carrier fidelity :steps 1000 :bases (straight-bases (ramp 1000 1.5d0 1 :braking 3)))
+             (bullet:state-hash (carrier-world carrier)))))
+    (dolist (fidelity '(:full :fast))
+      (is (= (state fidelity) (state fidelity))))))
+
+(test senseless-motions-are-refused
+  (with-carrier (carrier)
+    (signals bullet:bullet-error (run-carrier carrier :quick :steps 1))
+    (signals bullet:bullet-error (run-carrier carrier :fast :steps -1))
+    (signals bullet:bullet-error (run-carrier carrier :fast :steps 2 :bases (goal 0 0 0 0 0 0 1)))
+    (signals bullet:bullet-error (run-carrier carrier :fast :steps 1 :bases (goal 0 0 0 0 0 0 2)))
+    (signals bullet:bullet-error (run-carrier carrier :fast :steps 1 :goal (goal 1 2)))
+    (signals bullet:bullet-error (run-carrier carrier :fast :steps 1 :contact-distance -1))
+    (bullet:with-world (other)
+      (signals bullet:bullet-error
+        (run-carrier carrier :fast :steps 1 :watched (list (add-cube other :cube 0 0)))))
+    (is (equal '(0 :done nil nil) (multiple-value-list (run-carrier carrier :fast :steps 0))))))
+
+;;; Clearances
+
+(test clearance-is-that-of-the-posture
+  (with-carrier (carrier)
+    (let* ((world (carrier-world carrier))
+           (mechanism (carrier-mechanism carrier))
+           (wall (add-box world "wall" (geometry:make-pose 1.5d0 0 0)))
+           (links (list (carrier-base carrier) (carrier-hand carrier)))
+           (held (list (carrier-item carrier)))
+           (posture (goal 0 0.5d0 0 0)))
+      (flet ((clearance (x watched &rest obstacles)
+               (multiple-value-list
+                (bullet:mechanism-clearance mechanism (geometry:make-pose x 0 0) posture
+                                            watched (or obstacles (list wall)) 1))))
+        (destructuring-bind (distance body obstacle) (clearance 0.2d0 links)
+          (is (near 0.68d0 1d-9 distance))
+          (is (eq (carrier-hand carrier) body))
+          (is (eq wall obstacle)))
+        (is (near 0.61d0 1d-6 (first (clearance 0.2d0 held))))
+        (is (equal (list 0d0 (carrier-hand carrier) wall) (clearance 1 links)))
+        (is (equal '(1d0 nil nil) (clearance -1 links)))
+        ;; Its own links are where they would be.
+        (is (near (sqrt (+ (expt 0.28d0 2) (expt 0.53d0 2))) 1d-6
+                  (first (clearance 0 (list (carrier-hand carrier)) (carrier-base carrier)))))
+        (setf posture (goal 0 0.2d0 0 0))
+        (is (near (sqrt (+ (expt 0.28d0 2) (expt 0.23d0 2))) 1d-6
+                  (first (clearance 0 (list (carrier-hand carrier)) (carrier-base carrier)))))
+        ;; What is attached goes along, and does not count for the hand that holds it.
+        (is (near (sqrt (+ (expt 0.33d0 2) (expt 0.15d0 2))) 1d-6
+                  (first (clearance 0 links (carrier-item carrier)))))
+        (signals bullet:bullet-error
+          (bullet:mechanism-clearance mechanism (geometry:identity-pose) posture links held 0))))))
+
+(test path-contact-is-where-the-way-is-blocked
+  (with-carrier (carrier)
+    (let* ((world (carrier-world carrier))
+           (mechanism (carrier-mechanism carrier))
+           (post (bullet:add-body world "post" '(:box 0.02d0 0.02d0 2)
+                                  (geometry:make-pose 0 0.5d0 1)))
+           (start (goal 0 0.5d0 0 0)) (goal (goal 0 0.5d0 2 0)))
+      (flet ((contact (watched &rest options)
+               (multiple-value-list
+                (apply #'bullet:path-contact mechanism (geometry:identity-pose) start goal
+                       watched (list post) options))))
+        (destructuring-bind (fraction body obstacle) (contact (list (carrier-hand carrier)))
+          (is (eq (carrier-hand carrier) body))
+          (is (eq post obstacle))
+          ;; Run the same way with time: both agree.
+          (let ((steps (run-carrier carrier :fast
+                                    :steps 1000 :goal goal
+                                    :fractions (let ((fractions (make-array
+                                                                 1000
+                                                                 :element-type 'double-float)))
+                                                 (dotimes (i 1000 fractions)
+                                                   (setf (aref fractions i) (/ (1+ i) 1d3))))
+                                    :watched (list (carrier-hand carrier))
+                                    :obstacles (list post))))
+            (is (near (/ steps 1000) 2d-3 fraction))))
+        (is (< (first (contact (list (carrier-hand carrier)) :contact-distance 0.05d0))
+               (first (contact (list (carrier-hand carrier))))))
+        (is (equal '(nil) (contact (list (carrier-base carrier)))))
+        (bullet:ignore-collision post (carrier-hand carrier) t)
+        (is (equal '(nil) (contact (list (carrier-hand carrier)))))))))
