@@ -363,7 +363,9 @@ The environment variable CXX names another compiler than g++."))
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
-                             (:file "rays") (:file "mechanisms") (:file "motion-runs")))
+                             (:file "rays") (:file "joints") (:file "grips") (:file "hulls")
+                             (:file "contacts") (:file "checkpoints") (:file "mechanisms")
+                             (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")))
                (:module "discrepancy"
