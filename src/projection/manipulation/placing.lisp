@@ -88,7 +88,7 @@ tool, before, before)."
     (nearest-turns (projection-robot projection) (arm-joints arm) positions
                    (joint-positions (projection-robot projection)))))
 
-(defparameter *carrying-height* 1.05d0
+(defparameter *carrying-height* 0d0
   "The height (m) at which something is carried, if it is not higher already.")
 
 (defun carrying-positions (projection arm)
