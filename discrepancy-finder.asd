@@ -107,8 +107,9 @@ The environment variable CXX names another compiler than g++."))
                (:file "package") (:file "conditions") (:file "raw") (:file "world")
                (:file "shapes") (:file "hulls") (:file "inertia") (:file "bodies")
                (:file "attachments") (:file "joints")
-               (:file "queries") (:file "contacts") (:file "rays") (:file "mechanisms")
-               (:file "inverse-kinematics") (:file "motion-runs") (:file "clearances")))
+               (:file "queries") (:file "contacts") (:file "rays") (:file "sweeps")
+               (:file "checkpoints") (:file "mechanisms") (:file "inverse-kinematics")
+               (:file "motion-runs") (:file "clearances")))
 
 (asdf:defsystem "discrepancy-finder/source"
   :description "Files of Lisp forms, read with care and with positions."
@@ -292,9 +293,9 @@ The environment variable CXX names another compiler than g++."))
                              (:file "places") (:file "detecting") (:file "looking")))
                (:module "manipulation" :serial t
                 :components ((:file "column-arm") (:file "extents") (:file "grasps")
-                             (:file "fitting") (:file "arms") (:file "gripper") (:file "ways") (:file "smooth-ways")
-                             (:file "reaching") (:file "picking") (:file "placing")
-                             (:file "containers") (:file "modules")))
+                             (:file "fitting") (:file "arms") (:file "gripper") (:file "ways")
+                             (:file "smooth-ways") (:file "reaching") (:file "picking")
+                             (:file "placing") (:file "containers") (:file "modules")))
                (:module "actions" :serial t
                 :components ((:file "places") (:file "base-poses") (:file "moving")
                              (:file "searching") (:file "environment") (:file "fetching")

@@ -38,7 +38,8 @@ enum dfb_status {
   DFB_BAD_KIND = -6,        /* the kind of the body does not allow it */
   DFB_TOO_SMALL = -7,       /* the output has no room for the result */
   DFB_NO_MEMORY = -8,
-  DFB_NOTHING = -9,         /* no two bodies penetrate each other */
+  DFB_NOTHING = -9,         /* there is no such thing as was asked for */
+  DFB_BAD_CHECKPOINT = -10, /* no checkpoint of such a world */
   DFB_BAD_LINK = -20        /* no mechanism, link or joint has this id, or the tree is none */
 };
 
@@ -166,7 +167,19 @@ DFB_API int dfb_penetration(dfb_world *world, int a, int b, double *depth);
  * the two bodies, or return DFB_NOTHING. */
 DFB_API int dfb_deepest_penetration(dfb_world *world, double *depth, int *a, int *b);
 
-/* Rays */
+/* Find the other bodies, the passed_count ones in passed aside, that are not farther than distance
+ * from a body: write their ids and for each four numbers, how deep it penetrates (negative: minus the
+ * distance) and a point in the midst (m); return how many they are.  There must be room for all
+ * bodies of the world. */
+DFB_API int dfb_contacts(dfb_world *world, int body, double distance, int passed_count,
+                         const int *passed, int *others, double *numbers);
+/* Find the two bodies, one of each list, that are nearest to each other: write their distance (m),
+ * negative if they penetrate each other, and which they are; return DFB_NOTHING, with limit as
+ * distance, if none are nearer than that. */
+DFB_API int dfb_clearance(dfb_world *world, int count, const int *bodies, int other_count,
+                          const int *others, double limit, double *distance, int *a, int *b);
+
+/* Rays and sweeps */
 /* Find the first body on the way from x, y, z to to_x, to_y, to_z (m, at least 1e-9 m apart), the
  * passed_count bodies in passed aside: write it and the hit, 7 doubles: the point (m), the outward
  * normal of the surface there, and the part, 0 to 1, of the way.  Return DFB_NOTHING if there is
@@ -178,6 +191,24 @@ DFB_API int dfb_cast_ray(dfb_world *world, double x, double y, double z, double 
  * where there is one.  Return the number of rays that hit something. */
 DFB_API int dfb_cast_rays(dfb_world *world, int count, const double *rays, int passed_count,
                           const int *passed, int *bodies, double *hits);
+/* Move a shape that is neither a plane nor a union straight from one pose to another (7 doubles each,
+ * at least 1e-9 m apart), turning evenly: write the first body that it touches, the passed_count
+ * ones aside, and 7 doubles as for rays.  Return DFB_NOTHING if there is none. */
+DFB_API int dfb_sweep(dfb_world *world, const dfb_shape *shape, const double *from,
+                      const double *to, int passed_count, const int *passed, int *body,
+                      double *hit);
+
+/* Checkpoints */
+/* Return the number of doubles of a checkpoint. */
+DFB_API int dfb_checkpoint_size(dfb_world *world);
+/* Write a checkpoint, to an output of length doubles.  It holds whatever later steps depend on: all
+ * states, sleep, motors, attachments, ignored collisions.  What Bullet would remember beyond
+ * that, as contacts, the world forgets, so that it goes on with the same bits as a world to which the
+ * checkpoint is restored. */
+DFB_API int dfb_checkpoint_make(dfb_world *world, double *checkpoint, int length);
+/* Restore a checkpoint of this world or of one with equal bodies and joints, made in the same order;
+ * return DFB_BAD_CHECKPOINT for any other. */
+DFB_API int dfb_checkpoint_restore(dfb_world *world, const double *checkpoint, int length);
 
 /* Mechanisms: trees of links moved by forward kinematics, robots.  A link hangs on a joint, which
  * has the link's index; positions are one double (m or rad) for each joint. */
@@ -211,10 +242,11 @@ DFB_API int dfb_inverse_kinematics(dfb_world *world, int mechanism, int link, co
 
 /* Motions of a mechanism */
 /* Begin a motion that takes the joints straight from start to goal (joints that are not at start
- * are put there first, at rest; NULL for where they are, and goal NULL for start) and, with base_moves 1, the base along bases.  Without fast each
- * step steps the world; with fast 1 steps that can affect nothing but held bodies are skipped.  A
- * step in which a watched body, of a link or attached to one, would come to an obstacle as near as
- * contact_distance (m, not negative) ends the motion before it. */
+ * are put there first, at rest; start NULL: where they are; goal NULL: start) and, with base_moves 1,
+ * the base along bases.  Without fast each step steps the world; with fast 1 steps that can affect
+ * nothing but held bodies are skipped.  A step in which a watched body, of a link or attached to
+ * one, would come as near as contact_distance (m, not negative) to an obstacle ends the motion
+ * before it. */
 DFB_API int dfb_motion_begin(dfb_world *world, int mechanism, const double *start,
                              const double *goal, int base_moves, int fast,
                              double contact_distance, int watched_count, const int *watched,

@@ -18,7 +18,7 @@ order give equal bits, in any thread or process, and queries change no later bit
    #:body-pose #:body-velocity #:move-body #:place-body
    #:wake #:allow-sleep #:asleep-p #:ignore-collision
    ;; shapes
-   #:convex-hull #:shape-volume #:mass-properties #:principal-axes
+   #:convex-hull #:shape-volume #:shape-inertia #:mass-properties #:principal-axes
    ;; attachments
    #:attachment #:attach #:detach #:attachments #:attachment-parent #:attachment-child
    #:attachment-live-p #:attachment-load #:attachment-lost-p #:attachment-utilization
@@ -31,8 +31,9 @@ order give equal bits, in any thread or process, and queries change no later bit
    #:joint-child #:joint-lower #:joint-upper #:joint-live-p #:world-joints #:find-joint
    #:joint-position #:set-joint-position #:set-motor #:joint-load
    ;; contacts and sweeps
-   #:pair-distance
+   #:pair-distance #:touching-p #:contacts #:clearance #:sweep
    ;; checkpoints
+   #:checkpoint #:checkpoint-p #:make-checkpoint #:restore-checkpoint
    ;; mechanisms
    #:link-spec #:link-spec-name #:link-spec-parent #:link-spec-type #:link-spec-origin
    #:link-spec-axis #:link-spec-lower #:link-spec-upper #:link-spec-mimic #:link-spec-body

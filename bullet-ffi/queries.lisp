@@ -33,6 +33,17 @@ BULLET-ERROR if WORLD is closed."
 and 0.01 rad/s after each of the last 10 steps.  Signals BULLET-ERROR if WORLD is closed."
   (= 1 (invoke ('at-rest-p pointer world) (%at-rest pointer))))
 
+(defun body-ids (world bodies operation)
+  "Return the ids of the list BODIES, which must be of WORLD, as a vector for the shim."
+  (let ((ids (make-array (length bodies) :element-type '(signed-byte 32))))
+    (loop for body in bodies
+          for i from 0
+          do (unless (and (body-p body) (eq (body-world body) world))
+               (fail operation "~:[~a~;body ~a~] is no body of this world" (body-p body)
+                     (if (body-p body) (body-name body) body)))
+             (setf (aref ids i) (body-id body)))
+    ids))
+
 (defun penetration (a b)
   "Return how deep (m) the bodies A and B penetrate each other, 0 when they are apart, whether
 or not they sleep or ignore their collision.  Signals BULLET-ERROR if they are not two

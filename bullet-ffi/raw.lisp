@@ -81,4 +81,4 @@ seven doubles of a pose."
   (ecase status
     (-1 :bad-world) (-2 :bad-body) (-3 :bad-shape) (-4 :bad-constraint) (-5 :bad-number)
     (-6 :bad-kind) (-7 :too-small) (-8 :no-memory) (-9 :nothing)
-    (-20 :bad-link)))
+    (-10 :bad-checkpoint) (-20 :bad-link)))

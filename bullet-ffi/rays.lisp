@@ -9,17 +9,6 @@
 (defconstant +rays-a-call+ 10000
   "An interrupt has to wait for the end of a foreign call, so that no call may take long.")
 
-(defun body-ids (world bodies operation)
-  "Return the ids of the list BODIES, which must be of WORLD, as a vector for the shim."
-  (let ((ids (make-array (length bodies) :element-type '(signed-byte 32))))
-    (loop for body in bodies
-          for i from 0
-          do (unless (and (body-p body) (eq (body-world body) world))
-               (fail operation "~:[~a~;body ~a~] is no body of this world" (body-p body)
-                     (if (body-p body) (body-name body) body)))
-             (setf (aref ids i) (body-id body)))
-    ids))
-
 (defun cast-ray (world from to &key passed)
   "Return the first body of WORLD on the straight way from the position of the pose FROM to that of
 the pose TO, and as further values where that is: a pose at the point, upright; the outward normal

@@ -104,6 +104,7 @@ status is :NOTHING."
     (:bad-kind "the kind of the body does not allow it")
     (:too-small "the vector is too short")
     (:no-memory "the memory is used up")
+    (:bad-checkpoint "the checkpoint is not one of such a world")
     (:bad-link "the link, or one of the joints, is none of the mechanism")))
 
 (defun in-range-p (number sort)

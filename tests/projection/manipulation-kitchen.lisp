@@ -138,3 +138,109 @@ second drawer and goes along."
                        (standing-at -1.1 0.3 pi))
                       0)
               0.005)))
+
+;;; Failures
+
+(defun failure-in-kitchen (poses &rest designators)
+  "Return the name of the class of the plan failure, and the failure, that performing DESIGNATORS one
+after the other signals."
+  (multiple-value-bind (done failure)
+      (call-in-kitchen (lambda (projection)
+                         (dolist (designator designators t)
+                           (perform-in projection designator)))
+                       poses)
+    (if done :none (values (type-of failure) failure))))
+
+(defun moving-tool (x y z &rest more)
+  (let ((?pose (geometry:make-pose x y z :yaw pi)))
+    (plan:make-designator :motion `((:type :moving-tcp)
+                                    (:left-target ,(plan:a location (pose ?pose)))
+                                    ,@more))))
+
+(test what-is-out-of-reach
+  (is (eq 'plan:manipulation-pose-unreachable
+          (failure-in-kitchen (standing-at -0.6 0 pi) (picking-up-item :milk))))
+  (is (eq 'plan:manipulation-pose-unreachable
+          (failure-in-kitchen (standing-at -0.6 0 pi) (opening-drawer :drawer-2))))
+  (is (eq 'plan:manipulation-pose-unreachable
+          (failure-in-kitchen (standing-at -1.3 0 pi) (moving-tool -2.9 0 1))))
+  (is (eq 'plan:manipulation-pose-unreachable
+          (failure-in-kitchen (standing-at -1.3 0.1 pi) (picking-up-item :milk)
+                              (placing-at 0.5 0 0.947)))))
+
+(test what-is-in-the-way
+  (is (eq 'plan:manipulation-goal-not-reached
+          (failure-in-kitchen (standing-at -1.3 0.1 pi) (moving-tool -2.1 0 0.8)))
+      "in the workspace")
+  (is (eq :none (failure-in-kitchen (standing-at -1.3 0.1 pi)
+                                    (moving-tool -1.85 -0.1 1.0))))
+  (is (eq 'plan:manipulation-goal-not-reached
+          (failure-in-kitchen (standing-at -1.1 0.3 pi)
+                              (opening-drawer :drawer-2 '(:distance 0.35))
+                              (opening-drawer :drawer-2 '(:distance 0.1))))
+      "the drawer cannot be opened farther"))
+
+(test what-grippers-fail-with
+  (is (eq 'plan:gripper-closed-completely
+          (failure-in-kitchen (standing-at -1.1 0 pi) (placing-at -2.1 0 0.947))))
+  (is (eq 'plan:gripper-closed-completely
+          (failure-in-kitchen (standing-at -1.1 0 pi)
+                              (plan:make-designator :motion '((:type :gripping)
+                                                              (:gripper :left))))))
+  (let ((?pose (geometry:make-pose -2.1 0.4 0.947)))
+    (is (eq 'plan:gripper-closed-completely
+            (failure-in-kitchen (standing-at -1.3 0.3 pi)
+                                (plan:an action (type picking-up)
+                                         (object (plan:an object (name milk) (pose ?pose))))))
+        "it is not where it was seen"))
+  (is (eq 'plan:gripper-goal-not-reached
+          (failure-in-kitchen (standing-at -1.3 0.1 pi)
+                              (picking-up-item :milk '(:arm :left))
+                              (picking-up-item :cereal '(:arm :left))))
+      "the hand is full")
+  (is (eq 'plan:perception-object-not-found
+          (failure-in-kitchen (standing-at -1.3 0.1 pi) (picking-up-item :teapot)))))
+
+(test plain-mistakes-are-not-understood
+  (flet ((refused-p (class &rest properties)
+           (handler-case
+               (call-in-kitchen (lambda (projection)
+                                  (perform-in projection
+                                              (plan:make-designator class properties)))
+                                (standing-at -1.1 0 pi))
+             (plan:designator-not-understood () t))))
+    (is-true (refused-p :motion '(:type :moving-tcp)))
+    (is-true (refused-p :motion '(:type :moving-arm-joints) '(:left-configuration (1 2))))
+    (is-true (refused-p :motion '(:type :moving-gripper-joint) '(:gripper :left)))
+    (is-true (refused-p :motion '(:type :gripping) '(:gripper :middle)))
+    (is-true (refused-p :action '(:type :picking-up)))
+    (is-true (refused-p :action '(:type :opening)
+                        (list :object (plan:an object (type dishwasher)))))))
+
+;;; Grips
+
+(defun grip-of-milk (force)
+  "Return the utilization of the grip on the milk at rest after it was lifted, or NIL and the failure
+if it was lost, with FORCE (N) of each finger."
+  (call-in-kitchen (lambda (projection)
+                     (perform-in projection (picking-up-item :milk '(:arm :left)
+                                                             (list :effort force)))
+                     (projection::pass-time projection 60)
+                     (bullet:attachment-utilization
+                      (projection::grasp-attachment projection :left)))
+                   (standing-at -1.3 0.1 pi)
+                   :parameters (list :finger-friction 0.6) :fidelity :full))
+
+(test a-grip-bears-what-the-limit-surface-says
+  "The milk weighs 9.81 N and is held beside its centre: the grip bears m g of 2 mu N."
+  (dolist (force '(15 25 50))
+    (let ((expected (/ 9.81 (* 2 0.6 force))) (utilization (grip-of-milk force)))
+      (is (and utilization (nearly expected utilization (* 0.03 expected)))
+          "~a instead of ~a" utilization expected))))
+
+(test a-grip-that-is-too-weak-loses-the-milk
+  "8 N of each finger hold 9.6 N, and the milk weighs 9.81 N."
+  (multiple-value-bind (utilization failure) (grip-of-milk 8)
+    (is (null utilization))
+    (is (typep failure 'plan:gripper-closed-completely)))
+  (is-true (grip-of-milk 14)))

@@ -198,10 +198,15 @@ if it is NIL."
     (unless (held-item projection (arm-name arm))
       (move-gripper projection arm (closing-position projection arm)))))
 
-(defun grip-with-effort (projection designator)
+(defun wanted-effort (designator)
+  "Return the :effort (N) of DESIGNATOR, or NIL if it has none."
   (let ((effort (plan:desig-prop-value designator :effort)))
     (unless (or (null effort) (and (realp effort) (plusp effort)))
       (misunderstood designator "the effort of a gripper is a force in N"))
-    (let ((gripped (loop for arm in (designated-arms projection designator :gripper)
-                         collect (grip projection arm (and effort (decimal-double effort))))))
-      (first gripped))))
+    (and effort (decimal-double effort))))
+
+(defun grip-with-effort (projection designator)
+  "Close the grippers of DESIGNATOR; return what the first of them holds."
+  (let ((effort (wanted-effort designator)))
+    (first (loop for arm in (designated-arms projection designator :gripper)
+                 collect (grip projection arm effort)))))

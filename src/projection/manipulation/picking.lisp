@@ -2,7 +2,7 @@
 ;;;;
 ;;;; The grasps that fit the item's shape are tried at the pose where it was seen, those first that
 ;;;; come from the robot's side and hold it near its centre of mass.  The hand opens, comes, closes,
-;;;; and lifts what it has.
+;;;; and lifts what it has.  An :effort is the force (N) of each finger.
 
 (in-package #:discrepancy-finder.projection)
 
@@ -168,7 +168,7 @@ sides and of lists (side x y z), with a point of the item; NIL for anywhere."
       (move-gripper projection arm (nth-value 1 (gripper-limits projection arm)))
       (follow projection arm (reach-way reach))
       (follow projection arm (reach-line reach) :ignore (list body) :smoothly t)
-      (let ((gripped (grip projection arm)))
+      (let ((gripped (grip projection arm (wanted-effort designator))))
         (unless (eq gripped item)
           (open-gripper projection arm)
           (plan:fail 'plan:gripper-closed-completely

@@ -36,11 +36,11 @@ the speed is CAP (m/s) at most, at its end 0 if STOP is true."
 
 ;;; Vectors are lists of three numbers.
 
-(defun minus (a b) (mapcar #'- a b))
+(defun points-apart (a b) (mapcar #'- a b))
 (defun dot (a b) (reduce #'+ (mapcar #'* a b)))
-(defun scaled (factor a) (mapcar (lambda (number) (* factor number)) a))
-(defun plus (a b) (mapcar #'+ a b))
-(defun norm (a) (sqrt (dot a a)))
+(defun times (factor a) (mapcar (lambda (number) (* factor number)) a))
+(defun points-sum (a b) (mapcar #'+ a b))
+(defun point-length (a) (sqrt (dot a a)))
 
 (defun stretch-point (stretch distance)
   "Return the point, three values, of STRETCH at DISTANCE (m) from its start."
@@ -69,19 +69,19 @@ a turn from each place to the next."
 (defun corner-arc (gait from corner to free-p)
   "Return the arc, a STRETCH, that leads around CORNER on the way from FROM to TO, and the distance
 from CORNER at which it begins; NIL if there is none that is free."
-  (let* ((in (minus corner from)) (out (minus to corner))
-         (before (norm in)) (after (norm out))
-         (in (scaled (/ before) in)) (out (scaled (/ after) out))
+  (let* ((in (points-apart corner from)) (out (points-apart to corner))
+         (before (point-length in)) (after (point-length out))
+         (in (times (/ before) in)) (out (times (/ after) out))
          (angle (acos (max -1d0 (min 1d0 (dot in out)))))
          (distance (min *blend* (/ before 2) (/ after 2)))
          (radius (if (< 1d-6 angle (- pi 1d-3)) (/ distance (tan (/ angle 2))) 0d0)))
     (when (> radius 0.01d0)
-      (let* ((across (minus out (scaled (dot in out) in)))
-             (arc (make-stretch (minus corner (scaled distance in)) in (* radius angle)
+      (let* ((across (points-apart out (times (dot in out) in)))
+             (arc (make-stretch (points-apart corner (times distance in)) in (* radius angle)
                                 (min (gait-speed gait)
                                      (sqrt (* radius (min (gait-acceleration gait)
                                                           (gait-deceleration gait)))))
-                                nil (scaled (/ (norm across)) across) radius)))
+                                nil (times (/ (point-length across)) across) radius)))
         (and (loop for i from 1 below 8
                    always (multiple-value-bind (x y w)
                               (stretch-point arc (* (/ i 8) (stretch-length arc)))
@@ -96,10 +96,10 @@ from CORNER at which it begins; NIL if there is none that is free."
           while to
           do (multiple-value-bind (arc distance)
                  (and after (corner-arc gait from to after free-p))
-               (let* ((way (minus to from)) (length (norm way)) (distance (or distance 0d0))
-                      (direction (scaled (/ length) way)))
+               (let* ((way (points-apart to from)) (length (point-length way)) (distance (or distance 0d0))
+                      (direction (times (/ length) way)))
                  (when (> (- length begin distance) 1d-9)
-                   (push (make-stretch (plus from (scaled begin direction)) direction
+                   (push (make-stretch (points-sum from (times begin direction)) direction
                                        (- length begin distance) (gait-speed gait) (null arc))
                          stretches))
                  (when arc (push arc stretches))
@@ -209,7 +209,7 @@ length."
                (if (level-at-p terrain x y)
                    (put-level-pose bases step x y height (/ w weight))
                    (put-pose bases step
-                             (standing-pose terrain x y height (/ w weight))))))
+                             (ground-pose terrain x y height (/ w weight))))))
     (when (plusp steps)
       (put-pose bases (1- steps) last))
     bases))

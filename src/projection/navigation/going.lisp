@@ -30,7 +30,7 @@ RUN-MOTION.  FREE-P is a function that tells whether the base can be at a place.
          (terrain (projection-terrain projection))
          (gait (base-gait projection))
          (last (destructuring-bind (x y yaw) (first (last path))
-                 (standing-pose terrain x y (standing-height robot) yaw))))
+                 (ground-pose terrain x y (standing-height robot) yaw))))
     (let ((bases (path-bases gait path terrain (standing-height robot) free-p last)))
       (unless (zerop (length bases))
         (run-motion projection (/ (length bases) 7) :bases bases :watch watch :ignore ignore)))))

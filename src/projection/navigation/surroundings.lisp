@@ -46,18 +46,24 @@
 
 (defun touches-at-p (projection place)
   "Return true if PROJECTION's robot, as it is now, would touch something at PLACE."
-  (declare (ignore projection place))
-  t)
+  (let ((robot (projection-robot projection)))
+    (destructuring-bind (x y yaw) place
+      (<= (bullet:mechanism-clearance (robot-mechanism robot)
+                                      (make-pose x y (standing-height robot) :yaw yaw)
+                                      (joint-positions robot)
+                                      (watched-bodies projection :all)
+                                      (solid-bodies projection) 1d-3)
+          0))))
 
 (defun without-pairs-at (footing place)
   "Return FOOTING without the pairs of pieces that overlap at PLACE."
   (destructuring-bind (x y yaw) place
     (%make-footing (map 'simple-vector
                         (lambda (part)
-                          (let ((piece (placed-piece (car part) x y yaw)))
+                          (let ((piece (turned-piece (car part) yaw)))
                             (cons (car part)
                                   (remove-if (lambda (obstacle)
-                                               (<= (separation piece obstacle) 0))
+                                               (<= (separation piece obstacle x y) 0))
                                              (cdr part)))))
                         (footing-parts footing))
                    (footing-reach footing))))

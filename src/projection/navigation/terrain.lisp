@@ -41,7 +41,7 @@ the middle of the base."
 inside."
   (let ((point (make-array 2 :element-type 'double-float)))
     (setf (aref point 0) x (aref point 1) y)
-    (gap-along-edges (piece-polygon piece) point 0d0 0d0)))
+    (gap-along-edges piece point 0d0 0d0)))
 
 (defun smooth-step (fraction)
   "Return the smooth step from 0 to 1 that has no velocity and no acceleration at its ends."
@@ -62,7 +62,7 @@ inside."
   (loop for sill in (terrain-sills terrain)
         always (> (outside-distance sill x y) (terrain-reach terrain))))
 
-(defun standing-pose (terrain x y z yaw)
+(defun ground-pose (terrain x y z yaw)
   "Return the pose of the base at X, Y, turned by YAW, at the height Z above the ground of TERRAIN."
   (if (level-at-p terrain x y)
       (make-pose x y z :yaw yaw)

@@ -37,12 +37,16 @@
   "Return the name of the joint or link that has ROLE, a keyword, in ROBOT, or NIL."
   (getf (scene-part-roles (robot-part robot)) role))
 
+(defun named-frame-number (robot name)
+  "Return the number of the link of ROBOT that has the NAME, a string, or whose joint has; or NIL."
+  (values (gethash name (blueprint-numbers (robot-blueprint robot)))))
+
 (defun frame-number (robot role-or-name)
   "Return the number of the link of ROBOT that is ROLE-OR-NAME, or whose joint is: a role (a keyword
 such as :LIFT, :TORSO, :PAN or :CAMERA) or the name of a link or joint (a string).  NIL if there is
 none."
   (let ((name (if (stringp role-or-name) role-or-name (role-name robot role-or-name))))
-    (and name (values (gethash name (blueprint-numbers (robot-blueprint robot)))))))
+    (and name (named-frame-number robot name))))
 
 (defun find-joint (robot role-or-name)
   "Return the joint that FRAME-NUMBER finds for ROLE-OR-NAME in ROBOT."
