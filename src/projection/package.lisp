@@ -13,7 +13,8 @@
                 #:with-failure-handling #:retry #:with-retry-counters #:do-retry
                 #:desig-prop-value #:next-solution #:failure-description
                 #:gripper-low-level-failure #:looking-high-level-failure
-                #:manipulation-low-level-failure
+                #:manipulation-low-level-failure #:manipulation-goal-not-reached
+                #:manipulation-pose-unreachable
                 #:navigation-goal-in-collision #:navigation-high-level-failure
                 #:navigation-low-level-failure #:navigation-pose-unreachable
                 #:object-nowhere-to-be-found #:object-undeliverable #:object-unfetchable
@@ -37,6 +38,9 @@
    #:projection-robot #:projection-fixtures #:projection-items #:projection-joints
    #:projection-grasps #:projection-fidelity #:projection-parameter
    #:observed-joint #:held-items #:item-at-rest-p
+   #:fixture-joint #:fixture-link-body #:fixture-link-pose #:projection-observer
+   #:run-joints #:run-path #:run-base #:run-motion #:pass-time #:move-torso
+   #:base-pose-free-p #:plan-base-path
    ;; pictures
    ;; manipulation
    ;; process modules

@@ -14,8 +14,13 @@
 (defparameter *reaching-distances* '(0.65d0 0.75d0 0.55d0 0.85d0 0.45d0)
   "Distances (m) of the base from what it is to reach, the best first.")
 
-(defparameter *opening-distances* '(0.85d0 0.75d0 0.95d0 0.65d0)
-  "Distances (m) of the base from the handle of what it is to open, the best first.")
+(defparameter *opening-distances* '(0.8d0 0.7d0 0.9d0 0.6d0)
+  "Distances (m) of the base from where the handle of what it is to open is when that is closed, the
+best first.")
+
+(defparameter *opening-offsets* '(0.2d0 0.3d0 0.1d0 0d0)
+  "How far (m) aside of the base's middle a handle is, the best first; to which side depends on the
+arm.")
 
 (defparameter *seeing-distances* '(0.9d0 0.7d0 1.1d0 1.4d0)
   "Distances (m) of the base from what it is to see, the best first.")
@@ -48,14 +53,18 @@ what a pose is worse than the best."
                                                 distance aside)
                                    (* 0.3d0 rank)))))
 
-(defun poses-before (target outwards aside)
-  "Return a list of (pose . detour) for the base poses from which what moves in the direction
-OUTWARDS (rad) can be pulled at TARGET."
+(defun poses-before (handle arm)
+  "Return a list of (pose . detour) for the base poses from which what has its handle at the pose
+HANDLE, of which x is the way in which it opens, can be opened and closed with ARM, or any arm if
+that is NIL."
   (loop for distance in *opening-distances*
         for rank from 0
-        append (loop for further in '(0d0 0.1d0 -0.1d0 0.2d0 -0.2d0)
-                     collect (cons (facing-pose target (+ outwards pi) distance (+ aside further))
-                                   (+ (* 0.3d0 rank) (* 2 (abs further)))))))
+        append (loop for offset in *opening-offsets*
+                     for further from 0
+                     append (loop for sign in (case arm (:left '(1)) (:right '(-1)) (t '(1 -1)))
+                                  collect (cons (facing-pose handle (+ (pose-yaw handle) pi)
+                                                             distance (* sign offset))
+                                                (+ (* 0.3d0 rank) (* 0.2d0 further)))))))
 
 (defun best-first (robot candidates)
   "Return the poses of CANDIDATES, (pose . detour), the cheapest way from where ROBOT is first."
@@ -82,8 +91,8 @@ after all that are not."
 ;;; What is to be reached or seen
 
 (defun handle-place (projection thing)
-  "Return the pose of the middle of the handle of the container that THING, a designator, means, x
-being the way in which it opens; NIL if it means none."
+  "Return the pose that the middle of the handle of the container that THING, a designator, means has
+while that is closed, x being the way in which it opens; NIL if it means none."
   (let ((container (and (typep thing 'plan:object-designator)
                         (first (find-containers projection thing)))))
     (when container
@@ -91,8 +100,11 @@ being the way in which it opens; NIL if it means none."
              (outward (outward projection container pose)))
         (multiple-value-bind (low high)
             (shape-bounds (urdf-link-shape (container-handle container)) pose)
-          (destructuring-bind (x y z) (mapcar (lambda (low high) (/ (+ low high) 2)) low high)
-            (make-pose x y z :yaw (atan (second outward) (first outward)))))))))
+          (carried-along projection container
+                         (apply #'make-pose
+                                (append (mapcar (lambda (low high) (/ (+ low high) 2)) low high)
+                                        (list :yaw (atan (second outward) (first outward)))))
+                         (- (bullet:joint-position (container-joint container)))))))))
 
 (defun object-place (projection object)
   "Return the pose of what the designator OBJECT means: as it was perceived, or else as it is."
@@ -140,12 +152,12 @@ of sight to the position of TARGET.  Items do not count as in the way: one of th
   "Return the lazy list of the base poses from which the target of LOCATION can be reached."
   (multiple-value-bind (target handle) (location-target projection location)
     (when target
-      (let ((robot (projection-robot projection))
-            (aside (arm-side (plan:desig-prop-value location :arm))))
-        (spread-poses (best-first robot
+      (let ((arm (plan:desig-prop-value location :arm)))
+        (spread-poses (best-first (projection-robot projection)
                                   (if handle
-                                      (poses-before target (pose-yaw target) aside)
-                                      (poses-around target *reaching-distances* aside)))
+                                      (poses-before target arm)
+                                      (poses-around target *reaching-distances*
+                                                    (arm-side arm))))
                       (base-pose-test projection (constantly t))
                       0.08d0)))))
 
