@@ -1,8 +1,7 @@
 ;;;; Smooth ways: through many configurations without stopping at each.
 ;;;;
-;;;; The configurations of a way are joined by a smooth curve, whose slope at a configuration is
-;;;; that of the parabola through it and its neighbours, and which is run from rest to rest at one
-;;;; velocity profile.  So a hand moves in a straight line, or along with a
+;;;; The configurations of a way are joined by a smooth curve (of Catmull and Rom), which is run from
+;;;; rest to rest at one velocity profile.  So a hand moves in a straight line, or along with a
 ;;;; drawer, and what it holds feels no jerks in between.
 
 (in-package #:discrepancy-finder.projection)
@@ -10,54 +9,33 @@
 (defconstant +steps-a-chunk+ 8
   "Between points of the curve that are so many steps apart, joints move straight.")
 
-(defun knot-slope (knots lengths number)
-  "Return the slope of the curve at the knot NUMBER: how much of each position per unit of length."
-  (flet ((chord (piece)
-           (map 'vector (lambda (from to) (/ (- to from) (aref lengths piece)))
-                (aref knots piece) (aref knots (1+ piece)))))
-    (cond ((= number 0) (chord 0))
-          ((= number (length lengths)) (chord (1- number)))
-          (t (let* ((before (aref lengths (1- number))) (after (aref lengths number))
-                    (part (/ after (+ before after))))
-               (map 'vector (lambda (a b) (+ (* part a) (* (- 1 part) b)))
-                    (chord (1- number)) (chord number)))))))
-
-(defun curve-point (knots slopes piece length fraction)
+(defun curve-point (knots piece fraction)
   "Return the positions at FRACTION of the PIECE, a number, of the smooth curve through the vector
-KNOTS with the vector SLOPES; LENGTH is that of the piece."
-  (let* ((f fraction) (f2 (* f f)) (f3 (* f2 f)))
+KNOTS."
+  (let* ((last (1- (length knots)))
+         (p0 (aref knots (max 0 (1- piece)))) (p1 (aref knots piece))
+         (p2 (aref knots (1+ piece))) (p3 (aref knots (min last (+ piece 2))))
+         (f fraction) (f2 (* f f)) (f3 (* f2 f)))
     (map '(simple-array double-float (*))
-         (lambda (from to start end)
-           (declare (double-float from to start end))
-           (+ (* from (+ 1 (* -3 f2) (* 2 f3)))
-              (* to (- (* 3 f2) (* 2 f3)))
-              (* length (+ (* start (+ f (* -2 f2) f3))
-                           (* end (- f3 f2))))))
-         (aref knots piece) (aref knots (1+ piece))
-         (aref slopes piece) (aref slopes (1+ piece)))))
+         (lambda (a b c d)
+           (declare (double-float a b c d))
+           (* 0.5d0 (+ (* 2 b) (* (- c a) f) (* (+ (* 2 a) (* -5 b) (* 4 c) (- d)) f2)
+                       (* (+ (- a) (* 3 b) (* -3 c) d) f3))))
+         p0 p1 p2 p3)))
 
 (defun curve-function (knots lengths)
   "Return a function that returns the positions on the curve through KNOTS at a part, 0 to 1, of its
-length; LENGTHS is the vector of those of its pieces, none 0."
-  (let ((total (reduce #'+ lengths))
-        (slopes (coerce (loop for number to (length lengths)
-                              collect (knot-slope knots lengths number))
-                        'vector)))
+length; LENGTHS are those of its pieces."
+  (let ((total (reduce #'+ lengths)))
     (lambda (part)
       (let ((rest (* part total)))
-        (loop for length across lengths
+        (loop for length in lengths
               for piece from 0
-              do (when (or (= piece (1- (length lengths))) (<= rest length))
-                   (return (curve-point knots slopes piece length (min 1d0 (/ rest length)))))
+              for last = (= piece (1- (length lengths)))
+              do (when (or last (<= rest length))
+                   (return (curve-point knots piece
+                                        (if (zerop length) 1d0 (min 1d0 (/ rest length))))))
                  (decf rest length))))))
-
-(defun distinct-knots (configurations)
-  "Return the vector of CONFIGURATIONS without those that are as good as the one before."
-  (let ((knots '()))
-    (dolist (configuration configurations)
-      (unless (and knots (< (longest-way (first knots) configuration) 1d-9))
-        (push configuration knots)))
-    (coerce (nreverse knots) 'vector)))
 
 (defun run-curve (projection curve fractions &key watched obstacles before after)
   "Move the joints of PROJECTION's robot along CURVE, a function that returns positions at a part of
@@ -98,11 +76,10 @@ returned."
 (defun run-smoothly (projection way &key (watch :all) ignore)
   "Move the joints of PROJECTION's robot through the configurations of WAY without stopping.  Return
 NIL, or :CONTACT and the two bodies that would touch."
-  (let* ((knots (distinct-knots (cons (copy-seq (joint-positions (projection-robot projection)))
-                                      way)))
-         (lengths (coerce (loop for index from 1 below (length knots)
-                                collect (longest-way (aref knots (1- index)) (aref knots index)))
-                          'vector))
+  (let* ((knots (coerce (cons (copy-seq (joint-positions (projection-robot projection))) way)
+                        'vector))
+         (lengths (loop for index from 1 below (length knots)
+                        collect (longest-way (aref knots (1- index)) (aref knots index))))
          (total (reduce #'+ lengths))
          (watched (watched-bodies projection watch)))
     (unless (zerop total)
