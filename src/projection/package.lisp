@@ -37,6 +37,9 @@
    #:projection-robot #:projection-fixtures #:projection-items #:projection-joints
    #:projection-grasps #:projection-fidelity #:projection-parameter
    #:observed-joint #:held-items #:item-at-rest-p
+   #:fixture-joint #:fixture-link-body #:fixture-link-pose #:projection-observer
+   #:run-joints #:run-path #:run-base #:run-motion #:pass-time #:move-torso
+   #:base-pose-free-p #:plan-base-path
    ;; pictures
    ;; manipulation
    ;; process modules

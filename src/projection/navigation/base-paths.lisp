@@ -82,7 +82,8 @@
 (defstruct (lattice (:constructor %make-lattice (footing step x y columns rows directions costs
                                                   parents clearances closed))
                     (:copier nil))
-  "Places (column, row, direction), numbered; only those in DIRECTIONS are used.  COSTS are those of
+  "Places (column, row, direction), numbered; a direction is an index into DIRECTIONS, a vector of
+numbers below +YAWS+.  COSTS are those of
 the best way to each that is known, PARENTS the places before, CLEARANCES lower bounds of the
 distances (m) that the robot has there, as far as they are known, CLOSED is 1 where the best way is
 known."
@@ -92,7 +93,7 @@ known."
   (y 0d0 :type double-float :read-only t)
   (columns 0 :type (unsigned-byte 24) :read-only t)
   (rows 0 :type (unsigned-byte 24) :read-only t)
-  (directions '() :type list :read-only t)
+  (directions #() :type simple-vector :read-only t)
   (costs nil :type doubles :read-only t)
   (parents nil :type (simple-array (signed-byte 32) (*)) :read-only t)
   (clearances nil :type doubles :read-only t)
@@ -103,18 +104,19 @@ known."
 
 (defun make-lattice (footing bounds step directions)
   "Return a lattice for FOOTING within BOUNDS, a list of the least x and y and the largest (m), with
-places about STEP (m) apart in DIRECTIONS, numbers below +YAWS+."
+places about STEP (m) apart in DIRECTIONS, a list of numbers below +YAWS+."
   (destructuring-bind (x0 y0 x1 y1) bounds
     (loop for unit = step then (* 2 unit)
           for columns = (+ 1 (ceiling (- x1 x0) unit))
           for rows = (+ 1 (ceiling (- y1 y0) unit))
-          for size = (* columns rows +yaws+)
+          for size = (* columns rows (length directions))
           until (<= size +lattice-limit+)
           finally (flet ((numbers (initial)
                            (make-array size :element-type 'double-float :initial-element initial)))
                     (return
                       (%make-lattice footing unit (* unit (ffloor x0 unit))
-                                     (* unit (ffloor y0 unit)) columns rows directions
+                                     (* unit (ffloor y0 unit)) columns rows
+                                     (coerce directions 'simple-vector)
                                      (numbers 1d9)
                                      (make-array size :element-type '(signed-byte 32)
                                                       :initial-element -1)
@@ -125,18 +127,24 @@ places about STEP (m) apart in DIRECTIONS, numbers below +YAWS+."
 (declaim (inline place-number number-parts))
 (defun place-number (lattice column row direction)
   (declare (type (unsigned-byte 24) column row direction))
-  (+ direction (* +yaws+ (+ column (* row (lattice-columns lattice))))))
+  (+ direction (* (the (unsigned-byte 8) (length (lattice-directions lattice)))
+                  (+ column (* row (lattice-columns lattice))))))
 
 (defun number-parts (lattice number)
   "Return column, row and direction of the place NUMBER of LATTICE."
   (declare (type (unsigned-byte 32) number))
-  (multiple-value-bind (cell direction) (floor number +yaws+)
+  (multiple-value-bind (cell direction)
+      (floor number (the (integer 1 255) (length (lattice-directions lattice))))
     (multiple-value-bind (row column) (floor cell (lattice-columns lattice))
       (values column row direction))))
 
 (defun direction-yaw (direction)
   "Return the yaw (rad) of the DIRECTION, a number below +YAWS+."
   (* direction (/ (* 2 pi) +yaws+)))
+
+(defun lattice-yaw (lattice index)
+  "Return the yaw (rad) of the direction INDEX of LATTICE."
+  (direction-yaw (svref (lattice-directions lattice) index)))
 
 (defun nearest-direction (yaw)
   "Return the direction, a number below +YAWS+, that is nearest to YAW (rad)."
@@ -147,7 +155,7 @@ places about STEP (m) apart in DIRECTIONS, numbers below +YAWS+."
   (multiple-value-bind (column row direction) (number-parts lattice number)
     (list (+ (lattice-x lattice) (* column (lattice-step lattice)))
           (+ (lattice-y lattice) (* row (lattice-step lattice)))
-          (short-turn (direction-yaw direction)))))
+          (short-turn (lattice-yaw lattice direction)))))
 
 (defun open-place-p (lattice number bound)
   "Return true if the robot can stand at the place NUMBER of LATTICE, where it has at least the
@@ -170,8 +178,11 @@ clearance BOUND (m)."
                                           (+ (lattice-x lattice)
                                              (* column (lattice-step lattice)))
                                           (+ (lattice-y lattice) (* row (lattice-step lattice)))
-                                          (* direction (/ (* 2 pi) +yaws+))
-                                          (parts-at footing direction) margin))))))))
+                                          (the double-float (lattice-yaw lattice direction))
+                                          (parts-at footing
+                                                    (svref (lattice-directions lattice)
+                                                           direction))
+                                          margin))))))))
     (> (aref clearances number) margin)))
 
 (defun places-near (lattice place)
@@ -185,7 +196,9 @@ clearance BOUND (m)."
               to (min (1- (lattice-columns lattice)) (+ column around))
             append (loop for r from (max 0 (- row around))
                            to (min (1- (lattice-rows lattice)) (+ row around))
-                         for number = (place-number lattice c r (nearest-direction yaw))
+                         for number = (place-number lattice c r
+                                                    (position (nearest-direction yaw)
+                                                              (lattice-directions lattice)))
                          when (and (open-place-p lattice number 0d0)
                                    (straight-way-p (lattice-footing lattice) place
                                                    (numbered-place lattice number)))
@@ -204,13 +217,10 @@ and the way may cost so much more than the best one.")
   "Return a function that returns the estimated cost from the place with a number to GOAL."
   (destructuring-bind (goal-x goal-y goal-yaw) goal
     (declare (double-float goal-x goal-y))
-    (let ((turns (make-array +yaws+ :element-type 'double-float
-                                    :initial-contents
-                                    (loop for d below +yaws+
-                                          collect (* *turn-cost*
-                                                     (abs (short-turn
-                                                           (- (direction-yaw d)
-                                                              goal-yaw))))))))
+    (let ((turns (map 'doubles
+                      (lambda (direction)
+                        (* *turn-cost* (abs (short-turn (- (direction-yaw direction) goal-yaw)))))
+                      (lattice-directions lattice))))
       (lambda (number)
         (declare (fixnum number) (optimize speed (safety 1))
                  (sb-ext:muffle-conditions sb-ext:compiler-note))
@@ -223,11 +233,18 @@ and the way may cost so much more than the best one.")
                   (aref turns direction)))))))))
 
 (defun can-turn-p (lattice column row from to)
-  "Return true if the robot can turn at COLUMN and ROW of LATTICE from one direction to another."
-  (let ((step (if (<= (mod (- to from) +yaws+) (/ +yaws+ 2)) 1 -1)))
-    (loop for direction = from then (mod (+ direction step) +yaws+)
-          always (open-place-p lattice (place-number lattice column row direction) 0d0)
-          until (= direction to))))
+  "Return true if the robot can turn at COLUMN and ROW of LATTICE from one direction to another, both
+numbers below +YAWS+."
+  (let ((footing (lattice-footing lattice))
+        (x (+ (lattice-x lattice) (* column (lattice-step lattice))))
+        (y (+ (lattice-y lattice) (* row (lattice-step lattice))))
+        (step (if (<= (mod (- to from) +yaws+) (/ +yaws+ 2)) 1 -1)))
+    (or (> (turning-room footing x y) *path-margin*)
+        (loop for direction = (mod (+ from step) +yaws+) then (mod (+ direction step) +yaws+)
+              always (> (clearance-at footing x y (direction-yaw direction)
+                                      (parts-at footing direction) *path-margin*)
+                        *path-margin*)
+              until (= direction to)))))
 
 (defun turn-costs ()
   "Return a vector of the costs of turning by 0, 1, 2, ... directions."
@@ -281,14 +298,16 @@ to come."
                                       (when (and (zerop (aref closed next))
                                                  (open-place-p lattice next (- clearance length)))
                                         (reach next (+ cost length) number))))))
-                (dolist (other (lattice-directions lattice))
-                  (declare (fixnum other))
-                  (let ((next (place-number lattice column row other)))
-                    (when (and (/= other direction) (zerop (aref closed next))
-                               (can-turn-p lattice column row direction other))
-                      (reach next
-                             (+ cost (aref turns (mod (- other direction) +yaws+)))
-                             number))))))))))))
+                (loop with here of-type fixnum = (svref (lattice-directions lattice) direction)
+                      for there of-type fixnum across (lattice-directions lattice)
+                      for other of-type fixnum from 0
+                      for next = (place-number lattice column row other)
+                      for turned = (+ cost (aref turns (mod (- there here) +yaws+)))
+                      do (when (and (/= other direction) (zerop (aref closed next))
+                                    (< turned (aref costs next))
+                                    (open-place-p lattice next 0d0)
+                                    (can-turn-p lattice column row here there))
+                           (reach next turned number)))))))))))
 
 ;;; Paths
 

@@ -25,14 +25,29 @@ are the places where the path may be tight."
   (turned (make-array +yaws+ :initial-element nil) :type simple-vector :read-only t)
   (ends '() :type list))
 
+(defun needed-pairs (pairs)
+  "Return PAIRS, a list of (piece . obstacles), without the obstacles that another piece meets first
+in any case, as it covers the piece."
+  (loop for ((piece . obstacles) . later) on pairs
+        for covering = (remove-if-not (lambda (other) (covers-p (car other) piece))
+                                      (append earlier later))
+        for needed = (remove-if (lambda (obstacle)
+                                  (some (lambda (other) (member obstacle (cdr other) :test #'eq))
+                                        covering))
+                                obstacles)
+        when needed
+          collect (cons piece needed) into earlier
+        finally (return earlier)))
+
 (defun make-footing (parts obstacles)
   "Return the footing of a robot with the pieces PARTS, in the frame of its base, among the pieces
 OBSTACLES."
-  (%make-footing (coerce (loop for part in parts
-                               for near = (remove-if-not (lambda (obstacle)
-                                                           (heights-meet-p part obstacle))
-                                                         obstacles)
-                               when near collect (cons part near))
+  (%make-footing (coerce (needed-pairs
+                          (loop for part in parts
+                                collect (cons part
+                                              (remove-if-not (lambda (obstacle)
+                                                               (heights-meet-p part obstacle))
+                                                             obstacles))))
                          'simple-vector)
                  (loop for part in parts
                        maximize (+ (piece-radius part)
@@ -62,20 +77,28 @@ keeps the pieces turned by YAW that were needed."
           for py = (+ (* sine (piece-x piece)) (* cosine (piece-y piece)))
           do (dolist (obstacle (the list obstacles))
                (declare (type piece obstacle))
-               (let* ((dx (- (piece-x obstacle) px x)) (dy (- (piece-y obstacle) py y))
-                      (distance (- (sqrt (the (double-float 0d0) (+ (* dx dx) (* dy dy))))
-                                   (piece-radius piece) (piece-radius obstacle))))
+               (let ((distance (box-gap obstacle (+ x px) (+ y py) (piece-radius piece))))
                  (declare (type double-float distance))
                  (when (and (< distance nearest) (< distance 0.2d0))
                    (setf distance
                          (separation (or (svref turned index)
-                                         (setf (svref turned index)
-                                               (placed-piece piece 0d0 0d0 yaw)))
+                                         (setf (svref turned index) (turned-piece piece yaw)))
                                      obstacle x y)))
                  (when (< distance nearest)
                    (setf nearest distance)
                    (when (<= nearest limit)
                      (return-from clearance-at nearest))))))
+    nearest))
+
+(defun turning-room (footing x y)
+  "Return a lower bound of the distance (m) between all that the robot of FOOTING sweeps when it turns
+at X, Y and its surroundings."
+  (declare (double-float x y))
+  (let ((nearest 1d9) (reach (footing-reach footing)))
+    (declare (double-float nearest))
+    (loop for (nil . obstacles) across (footing-parts footing)
+          do (dolist (obstacle obstacles)
+               (setf nearest (min nearest (box-gap obstacle x y reach)))))
     nearest))
 
 (defun footing-clearance (footing place &optional (limit -1d9))

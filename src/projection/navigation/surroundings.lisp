@@ -60,10 +60,10 @@
   (destructuring-bind (x y yaw) place
     (%make-footing (map 'simple-vector
                         (lambda (part)
-                          (let ((piece (placed-piece (car part) x y yaw)))
+                          (let ((piece (turned-piece (car part) yaw)))
                             (cons (car part)
                                   (remove-if (lambda (obstacle)
-                                               (<= (separation piece obstacle) 0))
+                                               (<= (separation piece obstacle x y) 0))
                                              (cdr part)))))
                         (footing-parts footing))
                    (footing-reach footing))))

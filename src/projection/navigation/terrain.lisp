@@ -41,7 +41,7 @@ the middle of the base."
 inside."
   (let ((point (make-array 2 :element-type 'double-float)))
     (setf (aref point 0) x (aref point 1) y)
-    (gap-along-edges (piece-polygon piece) point 0d0 0d0)))
+    (gap-along-edges piece point 0d0 0d0)))
 
 (defun smooth-step (fraction)
   "Return the smooth step from 0 to 1 that has no velocity and no acceleration at its ends."

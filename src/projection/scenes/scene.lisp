@@ -85,6 +85,10 @@ Signals UNKNOWN-PARAMETER."
                                                       (append (scene-parameters scene)
                                                               (scene-tolerances scene))))))))
 
+(defun scene-open-tolerances (scene)
+  "Return the tolerances of SCENE that have no set value: a list like that of SCENE-TOLERANCES."
+  (remove-if (lambda (entry) (getf (scene-drawn scene) (first entry))) (scene-tolerances scene)))
+
 (defun check-value (scene name value)
   "Signal IMPOSSIBLE-PARAMETER unless VALUE can be that of the parameter NAME of SCENE."
   (let ((tolerance (assoc (source:name-keyword name) (scene-tolerances scene))))

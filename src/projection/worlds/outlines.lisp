@@ -9,28 +9,56 @@
 
 (deftype doubles () '(simple-array double-float (*)))
 
-(defstruct (piece (:constructor %make-piece (polygon low high x y radius)) (:copier nil))
-  "POLYGON holds the corners x0 y0 x1 y1 ..., counterclockwise; the piece reaches from the height
-LOW to HIGH (m); all its corners are within RADIUS of X, Y."
+(defstruct (piece (:constructor %make-piece (polygon edges low high x y radius x0 y0 x1 y1))
+                  (:copier nil))
+  "POLYGON holds the corners x0 y0 x1 y1 ..., counterclockwise, EDGES for each edge the two numbers of
+its outward unit normal, and its distance (m) from the origin along that; the piece reaches from the
+height LOW to HIGH (m).  All its corners are within RADIUS of X, Y, and between X0 and X1, Y0 and
+Y1."
   (polygon nil :type doubles :read-only t)
+  (edges nil :type doubles :read-only t)
   (low 0d0 :type double-float :read-only t)
   (high 0d0 :type double-float :read-only t)
   (x 0d0 :type double-float :read-only t)
   (y 0d0 :type double-float :read-only t)
-  (radius 0d0 :type double-float :read-only t))
+  (radius 0d0 :type double-float :read-only t)
+  (x0 0d0 :type double-float :read-only t)
+  (y0 0d0 :type double-float :read-only t)
+  (x1 0d0 :type double-float :read-only t)
+  (y1 0d0 :type double-float :read-only t))
 
-(defun make-piece (polygon low high)
+(defun polygon-edges (polygon)
+  "Return the EDGES of a piece with POLYGON; an edge without length has none."
+  (declare (type doubles polygon))
+  (let ((edges '()) (size (length polygon)))
+    (loop for i below size by 2
+          for next = (if (= (+ i 2) size) 0 (+ i 2))
+          for nx = (- (aref polygon (1+ next)) (aref polygon (1+ i)))
+          for ny = (- (aref polygon i) (aref polygon next))
+          for norm = (sqrt (+ (* nx nx) (* ny ny)))
+          do (when (> norm 1d-12)
+               (let ((nx (/ nx norm)) (ny (/ ny norm)))
+                 (push nx edges)
+                 (push ny edges)
+                 (push (+ (* nx (aref polygon i)) (* ny (aref polygon (1+ i)))) edges))))
+    (coerce (nreverse edges) 'doubles)))
+
+(defun make-piece (polygon low high &optional (edges (polygon-edges polygon)))
   "Return the piece with the corners POLYGON between the heights LOW and HIGH."
   (declare (type doubles polygon))
-  (flet ((middle (offset)
-           (/ (+ (loop for i from offset below (length polygon) by 2 minimize (aref polygon i))
-                 (loop for i from offset below (length polygon) by 2 maximize (aref polygon i)))
-              2)))
-    (let ((x (middle 0)) (y (middle 1)))
-      (%make-piece polygon low high x y
-                   (loop for i below (length polygon) by 2
-                         maximize (sqrt (+ (expt (- (aref polygon i) x) 2)
-                                           (expt (- (aref polygon (1+ i)) y) 2))))))))
+  (flet ((extent (offset)
+           (loop for i from offset below (length polygon) by 2
+                 minimize (aref polygon i) into low
+                 maximize (aref polygon i) into high
+                 finally (return (values low high)))))
+    (multiple-value-bind (x0 x1) (extent 0)
+      (multiple-value-bind (y0 y1) (extent 1)
+        (let ((x (/ (+ x0 x1) 2)) (y (/ (+ y0 y1) 2)))
+          (%make-piece polygon edges low high x y
+                       (loop for i below (length polygon) by 2
+                             maximize (sqrt (+ (expt (- (aref polygon i) x) 2)
+                                               (expt (- (aref polygon (1+ i)) y) 2))))
+                       x0 y0 x1 y1))))))
 
 (defun planar-hull (points)
   "Return the corners of the convex hull of POINTS, a list of (x . y), counterclockwise."
@@ -109,61 +137,70 @@ LOW to HIGH (m); all its corners are within RADIUS of X, Y."
     (pieces-of shape pose (lambda (part pose) (push (convex-piece part pose) pieces)))
     (nreverse pieces)))
 
-(defun placed-piece (piece x y yaw)
-  "Return PIECE, which is given in a frame, as seen from the one in which that is at X, Y, turned by
-YAW."
-  (declare (type double-float x y yaw))
+(defun turned-piece (piece yaw)
+  "Return PIECE, turned by YAW (rad) about the origin."
+  (declare (type double-float yaw))
   (let* ((sine (sin yaw)) (cosine (cos yaw))
-         (polygon (piece-polygon piece))
-         (placed (make-array (length polygon) :element-type 'double-float)))
-    (flet ((px (a b) (+ x (- (* cosine a) (* sine b))))
-           (py (a b) (+ y (+ (* sine a) (* cosine b)))))
-      (loop for i below (length polygon) by 2
-            for a = (aref polygon i) for b = (aref polygon (1+ i))
-            do (setf (aref placed i) (px a b)
-                     (aref placed (1+ i)) (py a b)))
-      (%make-piece placed (piece-low piece) (piece-high piece)
-                   (px (piece-x piece) (piece-y piece)) (py (piece-x piece) (piece-y piece))
-                   (piece-radius piece)))))
+         (polygon (copy-seq (piece-polygon piece)))
+         (edges (copy-seq (piece-edges piece))))
+    (flet ((turn (vector i)
+             (declare (type doubles vector) (fixnum i))
+             (let ((a (aref vector i)) (b (aref vector (1+ i))))
+               (setf (aref vector i) (- (* cosine a) (* sine b))
+                     (aref vector (1+ i)) (+ (* sine a) (* cosine b))))))
+      (declare (inline turn))
+      (loop for i of-type fixnum below (length polygon) by 2 do (turn polygon i))
+      (loop for i of-type fixnum below (length edges) by 3 do (turn edges i)))
+    (make-piece polygon (piece-low piece) (piece-high piece) edges)))
 
 (defun heights-meet-p (a b)
   "Return true if the pieces A and B take a common height, by more than a millimetre."
   (and (< (+ (piece-low a) 1d-3) (piece-high b))
        (< (+ (piece-low b) 1d-3) (piece-high a))))
 
-(defun gap-along-edges (one other x y)
-  "Return the largest distance by which an edge of the polygon ONE, moved by X, Y, separates it from
-the polygon OTHER; negative if none does."
-  (declare (type doubles one other) (type double-float x y) (optimize speed (safety 1))
+(defun gap-along-edges (piece corners x y)
+  "Return the largest distance by which an edge of PIECE separates it from the polygon CORNERS, moved
+by X, Y; negative if none does."
+  (declare (type doubles corners) (type double-float x y) (type piece piece)
+           (optimize speed (safety 1))
            (sb-ext:muffle-conditions sb-ext:compiler-note))
-  (let ((size (length one)) (gap -1d9))
+  (let* ((edges (piece-edges piece)) (gap -1d9) (size (length corners)))
     (declare (type double-float gap) (fixnum size))
-    (loop for i of-type fixnum below size by 2
-          for next of-type fixnum = (if (= (+ i 2) size) 0 (+ i 2))
-          do (let* ((ax (aref one i)) (ay (aref one (1+ i)))
-                    (nx (- (aref one (1+ next)) ay)) ; the outward normal
-                    (ny (- ax (aref one next)))
-                    (norm (sqrt (the (double-float 0d0) (+ (* nx nx) (* ny ny)))))
+    (loop for i of-type fixnum below (length edges) by 3
+          do (let* ((nx (aref edges i)) (ny (aref edges (1+ i)))
+                    (shift (- (+ (* nx x) (* ny y)) (aref edges (+ i 2))))
                     (nearest 1d9))
                (declare (type double-float nearest))
-               (when (> norm 1d-12)
-                 (loop for j of-type fixnum below (length other) by 2
-                       do (let ((distance (+ (* nx (- (aref other j) x ax))
-                                             (* ny (- (aref other (1+ j)) y ay)))))
-                            (when (< distance nearest) (setf nearest distance))))
-                 (setf gap (max gap (/ nearest norm))))))
+               (loop for j of-type fixnum below size by 2
+                     do (let ((distance (+ (* nx (aref corners j)) (* ny (aref corners (1+ j))))))
+                          (when (< distance nearest) (setf nearest distance))))
+               (setf gap (max gap (+ nearest shift)))))
     gap))
+
+(declaim (inline box-gap))
+(defun box-gap (piece x y radius)
+  "Return a lower bound of the distance of PIECE from the circle with RADIUS about X, Y."
+  (declare (type piece piece) (type double-float x y radius))
+  (let ((dx (max 0d0 (- (piece-x0 piece) x) (- x (piece-x1 piece))))
+        (dy (max 0d0 (- (piece-y0 piece) y) (- y (piece-y1 piece)))))
+    (- (sqrt (the (double-float 0d0) (+ (* dx dx) (* dy dy)))) radius)))
 
 (defun separation (a b &optional (x 0d0) (y 0d0))
   "Return a lower bound of the horizontal distance (m) of the pieces A, moved by X, Y, and B; it is
 negative just if their polygons overlap."
-  (declare (type double-float x y) (type piece a b) (optimize speed (safety 1))
-           (sb-ext:muffle-conditions sb-ext:compiler-note))
-  (let* ((dx (- (piece-x b) (piece-x a) x)) (dy (- (piece-y b) (piece-y a) y))
-         (far (- (sqrt (the (double-float 0d0) (+ (* dx dx) (* dy dy))))
-                 (piece-radius a) (piece-radius b))))
+  (declare (type double-float x y) (type piece a b))
+  (let ((far (box-gap b (+ x (piece-x a)) (+ y (piece-y a)) (piece-radius a))))
     (if (> far 0.2d0)
         far
         (max far
-             (gap-along-edges (piece-polygon a) (piece-polygon b) x y)
-             (gap-along-edges (piece-polygon b) (piece-polygon a) (- x) (- y))))))
+             (gap-along-edges a (piece-polygon b) (- x) (- y))
+             (gap-along-edges b (piece-polygon a) x y)))))
+
+(defun covers-p (a b)
+  "Return true if the polygon of the piece A has that of B in it."
+  (let ((edges (piece-edges a)) (corners (piece-polygon b)))
+    (loop for i below (length edges) by 3
+          always (loop for j below (length corners) by 2
+                       always (<= (+ (* (aref edges i) (aref corners j))
+                                     (* (aref edges (1+ i)) (aref corners (1+ j))))
+                                  (+ (aref edges (+ i 2)) 1d-9))))))
