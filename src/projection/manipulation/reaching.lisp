@@ -40,7 +40,9 @@ is what the plan is for, as it was given to FIND-REACH."
   "Return a REACH of ARM with its tool at TOOL, coming from BEGIN and leaving to END, a pose or a
 list of poses on the way, by a configuration near START; or NIL and why not, :UNREACHABLE or
 :COLLISION.  EFFORT is a list of keyword arguments of SOLVE."
-  (let ((reason :unreachable))
+  (let ((reason :unreachable)
+        ;; What is in a container moves with it.
+        (along (and (listp end) (mapcar #'cdr (projection-items projection)))))
     (dolist (there (apply #'solve projection arm tool start effort)
                    (values nil reason))
       (let ((back (straight-way projection arm there tool begin))
@@ -55,9 +57,12 @@ list of poses on the way, by a configuration near START; or NIL and why not, :UN
           (setf reason :collision)
           (let ((before (first (last back))))
             (when (and (free-p projection arm before :ignored ignored)
-                       (loop with ignored = (append target ignored)
-                             for positions in (list* there (append (butlast back) leaving))
-                             always (free-p projection arm positions :ignored ignored)))
+                       (loop for positions in (cons there (butlast back))
+                             always (free-p projection arm positions
+                                            :ignored (append target ignored)))
+                       (loop for positions in leaving
+                             always (free-p projection arm positions
+                                            :ignored (append target along ignored))))
               (let ((way (plan-way projection arm (reaching-positions projection arm) before
                                    :ignored ignored)))
                 (when way
