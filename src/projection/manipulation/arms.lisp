@@ -177,7 +177,7 @@ IGNORED."
                        (mapcar #'cdr (projection-items projection))
                        (arm-bodies projection (arm-blockers arm))))))
 
-(defparameter *planning-clearance* 2d-3
+(defparameter *planning-clearance* 1.5d-3
   "Configurations in which an arm is nearer than this (m) to something are not chosen.")
 
 (defun free-p (projection arm positions &key ignored (carried t))
