@@ -247,6 +247,9 @@ DFB_API int dfb_inverse_kinematics(dfb_world *world, int mechanism, int link, co
  * nothing but held bodies are skipped.  A step in which a watched body, of a link or attached to
  * one, would come as near as contact_distance (m, not negative) to an obstacle ends the motion
  * before it. */
+/* Let the motion that is begun next take the joints on a smooth curve through count positions, one
+ * set after the other, between start and goal. */
+DFB_API int dfb_motion_via(dfb_world *world, int mechanism, int count, const double *positions);
 DFB_API int dfb_motion_begin(dfb_world *world, int mechanism, const double *start,
                              const double *goal, int base_moves, int fast,
                              double contact_distance, int watched_count, const int *watched,

@@ -73,7 +73,8 @@ far (m) it is from there."
   (multiple-value-bind (done lifted away) (picked-up-and-placed item poses x y z)
     (is-true done "~a: ~a" item lifted)
     (when done
-      (is (nearly 0.1 lifted 0.01) "~a is lifted by ~a m" item lifted)
+      (is (nearly (projection:scene-parameter (manipulation-scene) :clearance) lifted 0.01)
+          "~a is lifted by ~a m" item lifted)
       (is (< away 0.02) "~a is ~a m from its target" item away))))
 
 (test each-item-is-picked-up-from-the-counter-and-placed-there

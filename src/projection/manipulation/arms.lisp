@@ -116,9 +116,6 @@ the last one, BLOCKERS the other links of the robot that it could touch; TORSO i
 
 ;;; Inverse kinematics
 
-(defparameter *solutions* 4
-  "So many configurations are tried for one pose of the tool and one height of the torso.")
-
 (defun torso-heights (projection arm)
   "Return the positions of the torso to try for ARM, the present one first; NIL without a torso."
   (let ((torso (arm-torso arm)) (robot (projection-robot projection)))

@@ -137,14 +137,10 @@ which that moves.")
 (defun haul (projection container way distance)
   "Move along WAY, whose configurations are equally far apart, while the joint of CONTAINER
 follows over DISTANCE.  Return NIL, or why it was not done, a string."
-  (let* ((robot (projection-robot projection))
-         (joint (container-joint container))
+  (let* ((joint (container-joint container))
          (force (* 2 (projection-parameter projection :finger-friction)
                    (projection-parameter projection :grip-force)))
          (before (bullet:joint-position joint))
-         (knots (coerce (cons (copy-seq (joint-positions robot))
-                              (with-present-grippers projection way))
-                        'vector))
          (body (container-body projection container)))
     (flet ((follow-hand (last count)
              (bullet:set-motor joint
@@ -158,13 +154,12 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
                     "the hand has slipped off the handle"))))
       (unwind-protect
            (multiple-value-bind (problem bodies)
-               (run-curve projection
-                          (curve-function knots (loop repeat (length way) collect 1))
-                          (profile-fractions (make-profile (abs distance) *container-speed*
-                                                           *container-acceleration*))
-                          :before #'follow-hand :after #'slipped
-                          :watched (watched-bodies projection :allow-hand)
-                          :obstacles (remove body (solid-bodies projection)))
+               (run-in-parts projection (with-present-grippers projection way)
+                             (profile-fractions (make-profile (abs distance) *container-speed*
+                                                              *container-acceleration*))
+                             :before #'follow-hand :after #'slipped
+                             :watched (watched-bodies projection :allow-hand)
+                             :obstacles (remove body (solid-bodies projection)))
              (if (eq problem :contact) (contact-text bodies) problem))
         (bullet:set-motor joint 0d0 (or (urdf-joint-friction (container-urdf-joint container))
                                         0d0))))))

@@ -16,6 +16,9 @@ is what the plan is for, as it was given to FIND-REACH."
   (line '() :type list :read-only t)
   (leaving '() :type list :read-only t))
 
+(defparameter *efforts* '((:count 1 :restarts 2) (:count 4 :restarts 6))
+  "How hard configurations are looked for, at first and if there are none then.")
+
 (defun arm-length (projection arm)
   "Return how far (m) the tool of ARM gets from its first joint, at the most."
   (let ((frames (robot-frames (projection-robot projection))))
@@ -33,12 +36,12 @@ is what the plan is for, as it was given to FIND-REACH."
   (let ((way (mapcar #'- (pose-position pose) (shoulder-position projection arm positions))))
     (<= (sqrt (dot way way)) (arm-length projection arm))))
 
-(defun reach-from (projection arm goal tool begin end start ignored target)
+(defun reach-from (projection arm goal tool begin end start ignored target effort)
   "Return a REACH of ARM with its tool at TOOL, coming from BEGIN and leaving to END, a pose or a
 list of poses on the way, by a configuration near START; or NIL and why not, :UNREACHABLE or
-:COLLISION."
+:COLLISION.  EFFORT is a list of keyword arguments of SOLVE."
   (let ((reason :unreachable))
-    (dolist (there (solve projection arm tool start :count *solutions* :restarts 6)
+    (dolist (there (apply #'solve projection arm tool start effort)
                    (values nil reason))
       (let ((back (straight-way projection arm there tool begin))
             (leaving (if (listp end)
@@ -51,10 +54,10 @@ list of poses on the way, by a configuration near START; or NIL and why not, :UN
                                      (advanced (first (last end)) (- *approach-distance*)))))
           (setf reason :collision)
           (let ((before (first (last back))))
-            (when (and (free-p projection arm there :ignored (append target ignored))
-                       (free-p projection arm before :ignored ignored)
-                       (free-p projection arm (first (last leaving))
-                               :ignored (append target ignored)))
+            (when (and (free-p projection arm before :ignored ignored)
+                       (loop with ignored = (append target ignored)
+                             for positions in (list* there (append (butlast back) leaving))
+                             always (free-p projection arm positions :ignored ignored)))
               (let ((way (plan-way projection arm (reaching-positions projection arm) before
                                    :ignored ignored)))
                 (when way
@@ -67,15 +70,17 @@ list of poses on the way, by a configuration near START; or NIL and why not, :UN
   "Return the first REACH of ARM that there is for CANDIDATES, lists of a goal and the poses of the
 tool there, before and afterwards; or NIL and why there is none, :UNREACHABLE or :COLLISION.  The
 bodies IGNORED may be touched all the time, those of TARGET from the straight line on."
-  (let ((reason :unreachable))
-    (dolist (height (or (torso-heights projection arm) '(nil)) (values nil reason))
-      (let ((start (reaching-positions projection arm height)))
-        (loop for (goal tool begin end) in candidates
-              do (when (within-length-p projection arm start tool)
-                   (multiple-value-bind (reach why)
-                       (reach-from projection arm goal tool begin end start ignored target)
-                     (when reach (return-from find-reach reach))
-                     (when (eq why :collision) (setf reason why)))))))))
+  (let ((reason :unreachable) (heights (or (torso-heights projection arm) '(nil))))
+    (dolist (effort *efforts* (values nil reason))
+      (dolist (height heights)
+        (let ((start (reaching-positions projection arm height)))
+          (loop for (goal tool begin end) in candidates
+                do (when (within-length-p projection arm start tool)
+                     (multiple-value-bind (reach why)
+                         (reach-from projection arm goal tool begin end start ignored target
+                                     effort)
+                       (when reach (return-from find-reach reach))
+                       (when (eq why :collision) (setf reason why))))))))))
 
 (defun fail-to-reach (reason arms what)
   "Signal the failure for REASON, as FIND-REACH returns it."
@@ -97,6 +102,12 @@ bodies IGNORED may be touched all the time, those of TARGET from the straight li
                       (setf (aref positions (arm-gripper arm))
                             (aref present (arm-gripper arm))))))))
 
+(defun fail-to-move (arm bodies)
+  "Signal that ARM has stopped because the two BODIES would have touched."
+  (plan:fail 'plan:manipulation-goal-not-reached
+             :description (format nil "the ~(~a~) arm stopped where ~a" (arm-name arm)
+                                  (contact-text bodies))))
+
 (defun follow (projection arm way &key (watch :all) ignore smoothly)
   "Move ARM along WAY, without stopping at its configurations if SMOOTHLY is true.  Signals
 MANIPULATION-GOAL-NOT-REACHED where something is touched."
@@ -104,7 +115,4 @@ MANIPULATION-GOAL-NOT-REACHED where something is touched."
     (multiple-value-bind (reason bodies)
         (funcall (if smoothly #'run-smoothly #'run-path)
                  projection (with-present-grippers projection way) :watch watch :ignore ignore)
-      (when reason
-        (plan:fail 'plan:manipulation-goal-not-reached
-                   :description (format nil "the ~(~a~) arm stopped where ~a" (arm-name arm)
-                                        (contact-text bodies)))))))
+      (when reason (fail-to-move arm bodies)))))

@@ -10,7 +10,7 @@
 (defparameter *tree-size* 120
   "So many configurations at the most are tried to find a way around obstacles.")
 
-(defparameter *line-step* 0.03d0
+(defparameter *line-step* 0.05d0
   "The length (m) of the pieces of a straight line on which the tool moves.")
 
 (defun moving-joints (arm start goal)
