@@ -42,7 +42,6 @@ the last one, BLOCKERS the other links of the robot that it could touch; TORSO i
                 :fingers (mapcar #'number (arm-roles-fingers roles))
                 :links links
                 :hand-links (frames-below robot (first (last joints)))
-                ;; The first links of an arm turn in the torso's sides.
                 :blockers (loop for number below (length (robot-frames robot))
                                 unless (member number links) collect number)
                 :torso (frame-number robot :torso)
@@ -178,16 +177,16 @@ IGNORED."
                        (mapcar #'cdr (projection-items projection))
                        (arm-bodies projection (arm-blockers arm))))))
 
-(defparameter *planning-clearance* 2d-3
+(defparameter *planning-clearance* 1.5d-3
   "Configurations in which an arm is nearer than this (m) to something are not chosen.")
 
-(defun free-p (projection arm positions &key ignored (links (cddr (arm-links arm))))
-  "Return true if the LINKS of ARM, without its first two, and what it holds touch nothing at
-POSITIONS but the bodies IGNORED."
+(defun free-p (projection arm positions &key ignored (carried t))
+  "Return true if the links of ARM but its first two, which turn in the torso's sides, touch nothing
+at POSITIONS but the bodies IGNORED, and with CARRIED what it holds neither."
   (let ((robot (projection-robot projection)))
     (> (bullet:mechanism-clearance (robot-mechanism robot) (base-pose robot) positions
-                                   (append (arm-bodies projection links)
-                                           (carried-bodies projection arm))
+                                   (append (arm-bodies projection (cddr (arm-links arm)))
+                                           (and carried (carried-bodies projection arm)))
                                    (arm-obstacles projection arm :ignored ignored)
                                    (* 2 *planning-clearance*))
        *planning-clearance*)))

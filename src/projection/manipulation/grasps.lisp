@@ -36,7 +36,7 @@ the frame of the thing, DEPTH how far (m) the tool comes along its x axis until 
 (defparameter *finger-clearance* 2d-3
   "How far (m) each finger of the open gripper is from what it is to grasp, at the least.")
 
-(defparameter *tip-clearance* 3d-3
+(defparameter *tip-clearance* 5d-3
   "How far (m) the tips of the fingers stay before the far side of what they grasp: behind it may be
 what it lies on.")
 

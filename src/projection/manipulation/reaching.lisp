@@ -36,11 +36,24 @@ is what the plan is for, as it was given to FIND-REACH."
   (let ((way (mapcar #'- (pose-position pose) (shoulder-position projection arm positions))))
     (<= (sqrt (dot way way)) (arm-length projection arm))))
 
+(defparameter *support-distance* 0.015d0
+  "What is to be put down must be free this much (m) higher; below is what it is put on.")
+
+(defun carried-free-p (projection arm positions tool)
+  "Return true if what ARM holds would touch nothing a little above where it is at POSITIONS, with
+the tool at the pose TOOL; or if it holds nothing."
+  (or (null (carried-bodies projection arm))
+      (let ((above (first (solve projection arm (moved tool (list 0d0 0d0 *support-distance*))
+                                 positions :restarts 0))))
+        (and above (free-p projection arm above)))))
+
 (defun reach-from (projection arm goal tool begin end start ignored target effort)
   "Return a REACH of ARM with its tool at TOOL, coming from BEGIN and leaving to END, a pose or a
 list of poses on the way, by a configuration near START; or NIL and why not, :UNREACHABLE or
 :COLLISION.  EFFORT is a list of keyword arguments of SOLVE."
-  (let ((reason :unreachable))
+  (let ((reason :unreachable)
+        ;; What is in a container moves with it.
+        (along (and (listp end) (mapcar #'cdr (projection-items projection)))))
     (dolist (there (apply #'solve projection arm tool start effort)
                    (values nil reason))
       (let ((back (straight-way projection arm there tool begin))
@@ -55,9 +68,14 @@ list of poses on the way, by a configuration near START; or NIL and why not, :UN
           (setf reason :collision)
           (let ((before (first (last back))))
             (when (and (free-p projection arm before :ignored ignored)
-                       (loop with ignored = (append target ignored)
-                             for positions in (list* there (append (butlast back) leaving))
-                             always (free-p projection arm positions :ignored ignored)))
+                       (free-p projection arm there :ignored (append target ignored) :carried nil)
+                       (carried-free-p projection arm there tool)
+                       (loop for positions in (butlast back)
+                             always (free-p projection arm positions
+                                            :ignored (append target ignored)))
+                       (loop for positions in leaving
+                             always (free-p projection arm positions
+                                            :ignored (append target along ignored))))
               (let ((way (plan-way projection arm (reaching-positions projection arm) before
                                    :ignored ignored)))
                 (when way
