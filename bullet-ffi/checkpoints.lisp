@@ -24,6 +24,8 @@
   (numbers nil :type (simple-array double-float (*)) :read-only t)
   (pairs '() :type list :read-only t))    ; the ids of the two bodies of each attachment
 
+(setf (documentation 'checkpoint-p 'function) "Return true if OBJECT is a checkpoint.")
+
 (defmethod print-object ((checkpoint checkpoint) stream)
   (print-unreadable-object (checkpoint stream :type t)
     (format stream "after ~d step~:p" (checkpoint-steps checkpoint))))

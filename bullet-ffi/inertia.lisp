@@ -53,6 +53,14 @@
                     (+ (turned-product i j) (* oi (turned j)) (* oj (turned i))
                        (* volume oi oj))))))))))
 
+(declaim (ftype function shape-moments))
+
+(defun compound-moments (parts)
+  (let ((total (make-moments 0)))
+    (loop for (pose part) in parts
+          do (map-into total #'+ total (moved-moments (shape-moments part) pose)))
+    total))
+
 (defun shape-moments (shape)
   "Return the moments of the well-formed SHAPE, which is no plane; parts of a compound that overlap
 count twice."
@@ -69,12 +77,8 @@ count twice."
                    (let* ((volume (* pi radius radius height))
                           (across (* 1/4 volume radius radius)))
                      (make-moments volume across across (/ (* volume height height) 12)))))
-      (:hull (hull-moments numbers))
-      (:compound (let ((total (make-moments 0)))
-                   (loop for (pose part) in numbers
-                         do (map-into total #'+ total
-                                      (moved-moments (shape-moments part) pose)))
-                   total)))))
+      (:hull (kept-moments shape (lambda () (hull-moments numbers))))
+      (:compound (kept-moments shape (lambda () (compound-moments numbers)))))))
 
 (defun shape-volume (shape)
   "Return the volume (m^3) of the well-formed SHAPE, which is no plane; where parts of a compound

@@ -88,7 +88,7 @@ the shape of BODY fills there, or up to 30 cm above it."
 
 (defun check-joint-position (joint position)
   "Signal IMPOSSIBLE-JOINT-POSITION unless POSITION is within the limits of JOINT, a URDF-JOINT."
-  (unless (and (realp position) (within-limits-p joint position))
+  (unless (and (realp position) (within-limits-p joint (decimal-double position)))
     (error 'impossible-joint-position :name (urdf-joint-name joint) :value position
                                       :lower (urdf-joint-lower joint)
                                       :upper (urdf-joint-upper joint))))
