@@ -116,9 +116,6 @@ is lost."
     (nearest-turns (projection-robot projection) (arm-joints arm) positions
                    (joint-positions (projection-robot projection)))))
 
-(defparameter *carrying-height* 0d0
-  "The height (m) at which something is carried, if it is not higher already.")
-
 (defun carrying-positions (projection arm)
   "Return positions in which ARM holds what it holds as upright as it does now, where its tool is
 when it is parked or in front of the robot; NIL if there are none."
