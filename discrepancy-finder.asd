@@ -392,12 +392,14 @@ The environment variable CXX names another compiler than g++."))
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
-                             (:file "rays") (:file "mechanisms") (:file "motion-runs")))
+                             (:file "rays") (:file "joints") (:file "grips") (:file "hulls")
+                             (:file "contacts") (:file "checkpoints") (:file "mechanisms")
+                             (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
-                             (:file "seeing") (:file "manipulation")
-                             (:file "manipulation-kitchen") (:file "actions-symbolic")
-                             (:file "pictures")))
+                             (:file "worlds") (:file "navigation") (:file "seeing")
+                             (:file "manipulation") (:file "manipulation-kitchen")
+                             (:file "actions-symbolic") (:file "pictures")))
                (:module "statistics"
                 :serial t
                 :components ((:file "normal") (:file "distributions") (:file "least-squares")
@@ -406,7 +408,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "random") (:file "abstraction") (:file "search")
                              (:file "replay")
-                             (:file "table-top")))
+                             (:file "table-top") (:file "tolerances")))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))

@@ -1,16 +1,17 @@
 ;;;; Motions of mechanisms: many steps in few foreign calls.
 ;;;;
 ;;;; RUN-MOTION takes the base of a mechanism along given poses, and its joints straight from some
-;;;; positions to others.  In both fidelities it looks for contacts of WATCHED bodies with OBSTACLES,
-;;;; and stops before one; what is attached to a link goes with it, and is lost when its grip is
-;;;; overloaded.
+;;;; positions to others.  In both fidelities it looks for contacts of WATCHED bodies with
+;;;; OBSTACLES, and stops before one; what is attached to a link goes with it, and is lost when its
+;;;; grip is overloaded.
 ;;;;
 ;;;; :FULL   each step moves the bodies of the links and steps the world.
 ;;;; :FAST   steps are skipped while all loose dynamic bodies sleep, or have been at rest for 0.1 s
-;;;;         (then they are put to sleep), and nothing that moves comes within 2 mm of one, nor a held
-;;;;         body within 2 mm of anything.  In skipped steps held bodies move, and load their grips,
-;;;;         by the equations that Bullet's constraint comes to.  From the step in which something is
-;;;;         lost, or comes close, the world is stepped until all rests again.
+;;;;         (then they are put to sleep), and nothing that moves comes within 2 mm of one, nor a
+;;;;         held body within 2 mm of anything but the mechanism itself.  In skipped steps held
+;;;;         bodies move, and load their grips, by the equations that Bullet's constraint comes to.
+;;;;         From the step in which something is lost, or comes close, the world is stepped until
+;;;;         all rests again.
 
 (in-package #:discrepancy-finder.bullet)
 

@@ -38,7 +38,7 @@ order give equal bits, in any thread or process, and queries change no later bit
    #:link-spec #:link-spec-name #:link-spec-parent #:link-spec-type #:link-spec-origin
    #:link-spec-axis #:link-spec-lower #:link-spec-upper #:link-spec-mimic #:link-spec-body
    #:mechanism #:make-mechanism #:mechanism-world #:mechanism-links #:link-index
-   #:make-positions #:pose-mechanism #:mechanism-posture #:link-pose #:forward-kinematics #:inverse-kinematics
-   #:run-motion #:mechanism-clearance #:path-contact
+   #:make-positions #:pose-mechanism #:mechanism-posture #:link-pose #:forward-kinematics
+   #:inverse-kinematics #:run-motion #:mechanism-clearance #:path-contact
    ;; rays
    #:cast-ray #:cast-rays))
