@@ -13,7 +13,8 @@
                 #:with-failure-handling #:retry #:with-retry-counters #:do-retry
                 #:desig-prop-value #:next-solution #:failure-description
                 #:gripper-low-level-failure #:looking-high-level-failure
-                #:manipulation-low-level-failure
+                #:manipulation-low-level-failure #:manipulation-goal-not-reached
+                #:manipulation-pose-unreachable
                 #:navigation-goal-in-collision #:navigation-high-level-failure
                 #:navigation-low-level-failure #:navigation-pose-unreachable
                 #:object-nowhere-to-be-found #:object-undeliverable #:object-unfetchable

@@ -14,6 +14,10 @@
 (defparameter *item-gap* 0.03d0
   "How far (m) an item is put from others and from an edge, at the least.")
 
+(defparameter *setting-gap* 6d-3
+  "How far (m) above where it is going to stand an item is let go: where it was seen is not exactly
+where it is in the hand.")
+
 (defparameter *places-to-look-at* 10
   "So many places of a part are looked at.")
 
@@ -99,7 +103,7 @@ is farthest from those before."
                                            (pose-qz upright) (pose-qw upright))))
          (height (placed-support (bullet:body-shape (item-body projection name)) turned
                                  '(0 0 -1))))
-    (quaternion-pose (pose-x point) (pose-y point) (+ (pose-z point) height 1d-3)
+    (quaternion-pose (pose-x point) (pose-y point) (+ (pose-z point) height *setting-gap*)
                      (pose-qx turned) (pose-qy turned) (pose-qz turned) (pose-qw turned))))
 
 (defun beside-p (low high other-low other-high gap)
