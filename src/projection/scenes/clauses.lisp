@@ -8,7 +8,8 @@
 (defun scene-problem (file form control &rest arguments)
   "Signal a SCENE-ERROR about FORM in FILE, with the line where the form begins if it is a list."
   (let ((position (source:form-position form))
-        (*package* (find-package '#:discrepancy-finder.projection)))
+        (*package* (find-package '#:discrepancy-finder.projection))
+        (*read-default-float-format* 'double-float))
     (error 'scene-error :file (source:native-name file)
                         :line (and position (source:source-position-line position))
                         :reason (apply #'format nil control arguments))))

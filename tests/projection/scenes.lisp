@@ -1,0 +1,1 @@
+(in-package #:discrepancy-finder.tests)
