@@ -143,6 +143,9 @@ read."
 (defvar *hulls* (make-hash-table :test 'equal :synchronized t)
   "Shapes of meshes that were read, by file, date of writing, size and scale.")
 
+(defvar *mesh-files* '()
+  "The names of the mesh files that the model which is being read has named, the last one first.")
+
 (defun hull-shape (corners path element)
   (handler-case (cons :hull (bullet:convex-hull corners :vertices *hull-vertices*))
     (bullet:bullet-error (condition)
@@ -164,6 +167,7 @@ read."
       (unless (< 1d-6 (abs factor) 1d6)
         (urdf-problem element "the mesh ~a has a scale of ~a" name factor)))
     (let ((key (list (source:native-name path) (file-write-date path) (file-size path) scale)))
+      (pushnew (source:native-name path) *mesh-files* :test #'string=)
       (or (gethash key *hulls*)
           (setf (gethash key *hulls*)
                 (hull-shape (loop for corner in (mesh-corners path element)

@@ -182,8 +182,11 @@ item's frame.  Signals UNKNOWN-BODY."
   (and (scene-robot scene) (scene-part-name (scene-robot scene))))
 
 (defun scene-files (scene)
-  "Return the names of the files that SCENE was read from: its own and those of its models."
+  "Return the names of the files that SCENE was read from: its own, those of its models and of their
+meshes."
   (cons (scene-file scene)
-        (remove-duplicates (mapcar (lambda (part) (urdf-model-file (scene-part-model part)))
-                                   (scene-parts scene))
+        (remove-duplicates (loop for part in (scene-parts scene)
+                                 for model = (scene-part-model part)
+                                 collect (urdf-model-file model)
+                                 append (urdf-model-meshes model))
                            :test #'string= :from-end t)))
