@@ -14,6 +14,10 @@ and the LINE of the file in which it begins."
   (children '() :type list)
   (line nil :type (or null integer) :read-only t))
 
+(defmethod print-object ((element xml-element) stream)
+  (print-unreadable-object (element stream :type t)
+    (format stream "<~a>~@[ in line ~d~]" (xml-element-name element) (xml-element-line element))))
+
 (defvar *model-file* ""
   "The name of the file that is being read.")
 
@@ -25,7 +29,8 @@ and the LINE of the file in which it begins."
   (let ((*read-default-float-format* 'double-float))
     (make-condition 'urdf-error :file *model-file* :element *model-part*
                                 :line (if (xml-element-p place) (xml-element-line place) place)
-                                :reason (apply #'format nil control arguments))))
+                                :reason (substitute #\Space #\Newline
+                                                    (apply #'format nil control arguments)))))
 
 (defun urdf-problem (place control &rest arguments)
   "Signal a URDF-ERROR about the file that is being read; PLACE is an element, a line or NIL."

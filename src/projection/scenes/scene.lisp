@@ -32,6 +32,11 @@ once and used in every projection."
   (form nil :type list :read-only t)
   (prepared nil))
 
+(defmethod print-object ((part scene-part) stream)
+  (print-unreadable-object (part stream :type t)
+    (format stream "~(~a ~a~), ~a" (scene-part-kind part) (scene-part-name part)
+            (urdf-model-name (scene-part-model part)))))
+
 (defstruct (scene (:copier %copy-scene))
   "What stands where.  PARAMETERS is a list of (name value documentation), TOLERANCES one of (name
 low high documentation), DRAWN a property list of those tolerances' values that are set."
