@@ -399,6 +399,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
+                             (:file "urdf-errors") (:file "urdf") (:file "meshes") (:file "robots") (:file "scenes")
                              (:file "actions-kitchen")
                              (:file "worlds") (:file "navigation")
                              (:file "seeing") (:file "manipulation")
