@@ -246,29 +246,15 @@ DFB_API int dfb_inverse_kinematics(dfb_world *world, int mechanism, int link, co
 /* Let the motion that is begun next take the joints on a smooth curve through count positions, one
  * set after the other, between start and goal. */
 DFB_API int dfb_motion_via(dfb_world *world, int mechanism, int count, const double *positions);
+/* Let the motion that is begun next take the joints on a smooth curve through count positions, one
+ * set after the other, between start and goal. */
+DFB_API int dfb_motion_via(dfb_world *world, int mechanism, int count, const double *positions);
 /* Begin a motion that takes the joints straight from start to goal (joints that are not at start
-<<<<<<< HEAD
-<<<<<<< HEAD
-=======
->>>>>>> 320087980e1fe7a0728444f0318cf09d2e44b9a2
  * are put there first, at rest; start NULL: where they are; goal NULL: start) and, with base_moves
  * 1, the base along bases.  Without fast each step steps the world; with fast 1 steps that can
  * affect nothing but held bodies are skipped.  A step in which a watched body, of a link or
  * attached to one, would come as near as contact_distance (m, not negative) to an obstacle ends
  * the motion before it. */
-<<<<<<< HEAD
-=======
- * are put there first, at rest; start NULL: where they are; goal NULL: start) and, with base_moves 1,
- * the base along bases.  Without fast each step steps the world; with fast 1 steps that can affect
- * nothing but held bodies are skipped.  A step in which a watched body, of a link or attached to
- * one, would come as near as contact_distance (m, not negative) to an obstacle ends the motion
- * before it. */
-/* Let the motion that is begun next take the joints on a smooth curve through count positions, one
- * set after the other, between start and goal. */
-DFB_API int dfb_motion_via(dfb_world *world, int mechanism, int count, const double *positions);
->>>>>>> 15a7cee90f9b86822c03b5aff8e43d7334ffb523
-=======
->>>>>>> 320087980e1fe7a0728444f0318cf09d2e44b9a2
 DFB_API int dfb_motion_begin(dfb_world *world, int mechanism, const double *start,
                              const double *goal, int base_moves, int fast,
                              double contact_distance, int watched_count, const int *watched,
