@@ -35,10 +35,12 @@
   (let ((poses (sample-poses (domain-scene domain) sample)))
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
-          do (format stream "    ~a~@[ (~a)~]~%" (value-text parameter value)
-                     (parameter-meaning parameter)))
+          unless (fixed-p parameter)
+            do (format stream "    ~a~@[ (~a)~]~%" (value-text parameter value)
+                       (parameter-meaning parameter)))
     (loop for body in (remove-duplicates
-                       (remove nil (mapcar #'parameter-body (sample-parameters sample))))
+                       (remove-if-not #'keywordp (mapcar #'parameter-body
+                                                         (sample-parameters sample))))
           for region = (symbolic:region-of-pose domain (getf poses body))
           do (format stream "    ~a is in ~:[no region~;~:*~a~]~%" (ec:name-text body)
                      (and region (ec:name-text region))))))

@@ -31,6 +31,10 @@ tolerance."
       (documentation 'parameter-max 'function)
       "Return the bound (m, rad) that the values of a parameter do not reach.")
 
+(defun fixed-p (parameter)
+  "Return true if PARAMETER has one possible value, and is not sampled."
+  (= (parameter-min parameter) (parameter-max parameter)))
+
 (defun tolerance-p (parameter)
   "Return true if PARAMETER is a tolerance of the scene, and no coordinate of a body."
   (null (parameter-body parameter)))
@@ -68,11 +72,20 @@ tolerance."
             (t ""))))
 
 (defun sample-text (sample)
-  "Return the values of SAMPLE with names and units."
+  "Return the values of SAMPLE that were drawn, with names and units."
   (format nil "~{~a~^, ~}"
           (loop for parameter in (sample-parameters sample)
                 for value across (sample-values sample)
-                collect (value-text parameter value))))
+                unless (fixed-p parameter)
+                  collect (value-text parameter value))))
+
+(defun drawn-values (sample)
+  "Return the vector of the values of SAMPLE that were drawn."
+  (coerce (loop for parameter in (sample-parameters sample)
+                for value across (sample-values sample)
+                unless (fixed-p parameter)
+                  collect value)
+          '(simple-array double-float (*))))
 
 (defmethod print-object ((sample sample) stream)
   (print-unreadable-object (sample stream :type t)
@@ -191,7 +204,7 @@ of their bodies that are no boxes."
 (defconstant +attempts+ 10000
   "A body is tried in so many places of the box around its region before it counts as nowhere.")
 
-(defun drawn-values (parameters units)
+(defun values-at (parameters units)
   "Return the values of PARAMETERS at UNITS, a list of numbers from 0 to 1."
   (loop for parameter in parameters
         for unit in units
@@ -200,9 +213,9 @@ of their bodies that are no boxes."
 
 (defun redrawn-values (parameters seed content index attempt)
   "Return the values of PARAMETERS at a later ATTEMPT to draw sample INDEX."
-  (drawn-values parameters (loop for nil in parameters
-                                 for draw from (* attempt 4096)
-                                 collect (unit-float seed content index draw))))
+  (values-at parameters (loop for nil in parameters
+                              for draw from (* attempt 4096)
+                              collect (unit-float seed content index draw))))
 
 (defun place-of (parameters values body)
   "Return the pose with the coordinates of BODY that are among the VALUES of PARAMETERS."
@@ -220,8 +233,8 @@ of their bodies that are no boxes."
 its bounds, those of a body in a region that is no box uniform in it, by rejection; a pure function
 of SEED, CONTENT (the hash of the trace) and INDEX.  Signals SAMPLING-ERROR if a region seems to be
 empty."
-  (let ((values (drawn-values parameters
-                              (unit-point sampler seed content index (length parameters)))))
+  (let ((values (values-at parameters
+                           (unit-point sampler seed content index (length parameters)))))
     (loop for body in (remove-duplicates (loop for parameter in parameters
                                                when (parameter-region parameter)
                                                  collect (parameter-body parameter)))

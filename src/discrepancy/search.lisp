@@ -101,7 +101,7 @@ strata, newest first."
                                              (1+ (length (search-results search))))
                        :evidence (make-evidence
                                   (make-parameter-region
-                                   (parameter-bounds parameters)
+                                   (parameter-bounds (remove-if #'fixed-p parameters))
                                    (parameter-bounds (final-parameters (search-domain search)
                                                                        trace)))))))
 
@@ -151,7 +151,7 @@ draws are independent, or if it is in a round of strata of which no sample was l
     (when (/= round (trace-search-round trace-search))
       (flush-round trace-search nil)
       (setf (trace-search-round trace-search) round))
-    (push (cons (sample-values sample) (run-final-values run))
+    (push (cons (drawn-values sample) (run-final-values run))
           (trace-search-pending trace-search))
     (cond ((not (eq sampler :stratified)) (flush-round trace-search (eq sampler :independent)))
           ((= (length (trace-search-pending trace-search)) +cells+)
