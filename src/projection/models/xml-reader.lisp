@@ -208,7 +208,7 @@
     (let* ((line (current-line cursor))
            (text (skip-past cursor ">" "the DOCTYPE")))
       (when (or (find #\[ text) (search "SYSTEM" text) (search "PUBLIC" text))
-        (urdf-problem line "a DOCTYPE with declarations or with an external file is not followed")))))
+        (urdf-problem line "a DOCTYPE with declarations or an external file is not followed")))))
 
 (defun skip-asides (cursor)
   (loop do (skip-white cursor)

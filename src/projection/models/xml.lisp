@@ -1,7 +1,7 @@
 ;;;; XML elements that know their lines, and how to take them apart.
 ;;;;
-;;;; READ-XML (xml-reader.lisp) returns the root element of a file.  URDF-PROBLEM signals what is wrong with an element; it names the file,
-;;;; the line and the link or joint in which it is.
+;;;; READ-XML (xml-reader.lisp) returns the root element of a file.  URDF-PROBLEM signals what is
+;;;; wrong with an element; it names the file, the line and the link or joint in which it is.
 
 (in-package #:discrepancy-finder.projection)
 
