@@ -274,7 +274,7 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "conditions")
                (:module "models" :serial t
                 :components ((:file "xml") (:file "xml-reader") (:file "numbers") (:file "inertia") (:file "packages")
-                             (:file "meshes") (:file "links") (:file "joints") (:file "urdf")
+                             (:file "collada") (:file "meshes") (:file "links") (:file "joints") (:file "urdf")
                              (:file "groups")))
                (:module "scenes" :serial t
                 :components ((:file "clauses") (:file "parameters") (:file "scene")

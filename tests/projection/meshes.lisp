@@ -28,7 +28,8 @@
 <library_geometries><geometry id=\"g\"><mesh>
 <source id=\"p\"><float_array id=\"pa\" count=\"~d\">~{~{~a ~}~}</float_array>
 <technique_common><accessor source=\"#pa\" count=\"~d\" stride=\"3\">
-<param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/>
+<param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/>
+<param name=\"Z\" type=\"float\"/>
 </accessor></technique_common></source>
 <vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>
 <triangles count=\"~d\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>
@@ -106,6 +107,16 @@
     (problem "this is no mesh" "obj" "cannot be read")
     (problem "<COLLADA" "dae" "cannot be read")
     (problem (subseq (dae-text) 0 700) "dae" "mesh")
+    (loop for (old new part) in '(("count=\"15\"" "count=\"999999999\"" "has the count")
+                                  ("count=\"15\"" "cound=\"15\"" "no attribute count")
+                                  ("0 0 0 2" "0 0 x 2" "<float_array> holds x")
+                                  ("source=\"#p\"" "source=\"#q\"" "refers to #q")
+                                  ("</library_geometries>" "</library>" "line 13"))
+          for text = (dae-text)
+          for place = (search old text)
+          do (problem (format nil "~a~a~a" (subseq text 0 place) new
+                              (subseq text (+ place (length old))))
+                      "dae" "cannot be read: in line" part))
     (problem (format nil "v 0 0 0~%v 1 0 0~%v 0 1 0~%v 1 1 0~%f 1 2 3~%f 2 3 4~%") "obj" "no hull")
     (problem (format nil "v 0 0 0~%v 1 0 0~%v 0 1 0~%f 1 2 3~%") "obj" "no hull")
     (problem (stl-text) "ply" "of no kind"))

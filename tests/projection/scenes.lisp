@@ -21,8 +21,10 @@
     <limit lower=\"0\" upper=\"0.05\"/></joint>
   <joint name=\"follower\" type=\"prismatic\"><parent link=\"lower\"/><child link=\"finger2\"/>
     <limit lower=\"0\" upper=\"0.05\"/><mimic joint=\"gripper\" multiplier=\"-1\"/></joint>
-  <joint name=\"pan_joint\" type=\"continuous\"><parent link=\"torso\"/><child link=\"pan\"/></joint>
-  <joint name=\"tilt_joint\" type=\"continuous\"><parent link=\"pan\"/><child link=\"camera\"/></joint>
+  <joint name=\"pan_joint\" type=\"continuous\"><parent link=\"torso\"/>
+    <child link=\"pan\"/></joint>
+  <joint name=\"tilt_joint\" type=\"continuous\"><parent link=\"pan\"/>
+    <child link=\"camera\"/></joint>
 </robot>")
 
 (defparameter *arm*
@@ -30,8 +32,8 @@
          (:fingers \"finger1\" \"finger2\") (:parked 1 -0.5))")
 
 (defun call-with-scene (function text)
-  "Call FUNCTION with the name of a scene file with TEXT, in which ROBOT, CUP and TABLE stand for the
-names of URDF files."
+  "Call FUNCTION with the name of a scene file with TEXT, in which ROBOT, CUP and TABLE stand for
+the names of URDF files."
   (with-file (robot *armed-robot* "urdf")
     (loop for (name file) in `(("ROBOT" ,robot)
                                ("CUP" ,(root-file "models/table-top/cup.urdf"))
@@ -74,7 +76,8 @@ names of URDF files."
                      "(:tolerances (grip-force 30 50 \"N\") (mu 0.4 0.6)
                                    (base-stopping-error-x -0.03 0.01))")
     (is (equal '((:grip-force 30d0 50d0 "N") (:mu 0.4d0 0.6d0 nil)
-                 (:base-stopping-error-x -0.03d0 0.01d0 "how far ahead of its goal the base stops, m"))
+                 (:base-stopping-error-x -0.03d0 0.01d0
+                  "how far ahead of its goal the base stops, m"))
                (projection:scene-tolerances scene)))
     (is (= 35d0 (projection:scene-parameter scene :grip-force)) "the parameter's value")
     (is (near-p -0.01d0 (projection:scene-parameter scene :base-stopping-error-x)) "the middle")
@@ -149,7 +152,7 @@ names of URDF files."
     ("(:materials (wood (:friction 1)) (wood (:friction 2)))" ":2: " "two materials" "wood")
     (,(format nil "(:tolerances (mu 5 11))~%(:materials (wood (:friction mu)))")
      ":3: " "can be 11.0")
-    ("(:fixture table TABLE (:at 0 0 0) (:material wood))" ":2: " ":fixture table" "no material wood")
+    ("(:fixture table TABLE (:at 0 0 0) (:material wood))" ":2: " "no material wood")
     ("(:fixture table TABLE (:at 0 0 0) (:material 7))" ":2: " "(:material name)")
     ("(:fixture table TABLE (:at 0 0 0) (:material wood steel))" ":2: " "(:material name)")
     ("(:tolerances (grip-force 30))" ":2: " "(name low high")
@@ -163,7 +166,8 @@ names of URDF files."
      ":3: " "20.0, outside its tolerance")
     ("(:parameters (grip-force 20 7))" ":2: " "(name positive-number [documentation])")
     (,(format nil "(:parameters (a 1))~%(:parameters (b 1) (a 2))") ":3: " "two parameters" "a")
-    ("(:item cup CUP (:at 0 0 1) (:colour red))" ":2: " ":item cup has no option :colour; it can have :at, :type")
+    ("(:item cup CUP (:at 0 0 1) (:colour red))" ":2: "
+     ":item cup has no option :colour; it can have :at, :type")
     ("(:item cup CUP (:at 0 0 1) (:at 0 0 2))" ":2: " "two options :at")
     ("(:item cup CUP (:at 0 0 1) red)" ":2: " "no option red")
     ("(:item cup CUP (:at 0 0 1e300))" ":2: " "(:at x y z [yaw])")

@@ -26,7 +26,8 @@
 (test angles-turn-about-fixed-axes
   ;; Roll, then pitch, then yaw: the z axis goes to -y, to -y, to x.
   (with-urdf (model *two-links*
-                    (joint-with "<origin xyz=\"1 2 3\" rpy=\"1.5707963267948966 0.5 1.5707963267948966\"/>"
+                    (joint-with "<origin xyz=\"1 2 3\"
+                                        rpy=\"1.5707963267948966 0.5 1.5707963267948966\"/>"
                                 :type "fixed"))
     (let* ((origin (projection::urdf-joint-origin (first-joint model)))
            (tip (geometry:compose origin (geometry:make-pose 0 0 1))))
@@ -60,8 +61,8 @@
   (with-urdf (model *two-links* "<link name=\"c\"/><link name=\"d\"/>"
                     (joint-with (format nil "~a<mimic joint=\"k\" multiplier=\"2\" offset=\"1\"/>"
                                         *limit*))
-                    (joint-with (format nil "~a<mimic joint=\"l\" multiplier=\"-3\" offset=\"0.5\"/>"
-                                        *limit*)
+                    (joint-with (format nil "~a<mimic joint=\"l\" multiplier=\"-3\" ~
+                                                       offset=\"0.5\"/>" *limit*)
                                 :name "k" :child "c")
                     (joint-with *limit* :name "l" :child "d"))
     (is (equal '(("l" -6d0 2d0) ("l" -3d0 0.5d0) nil)
@@ -83,7 +84,8 @@
 (test what-urdf-does-not-mean-is-passed-over
   (with-urdf (model "<gazebo reference=\"a\"><sensor:camera x=\"${1}\"/>text &amp; more</gazebo>"
                     "<transmission name=\"t\"><joint name=\"nosuch\"/></transmission>"
-                    "<link name=\"a&#x62;&lt;\" type='\"'><!-- - <link/> --><![CDATA[<link>]]></link>"
+                    "<link name=\"a&#x62;&lt;\" type='\"'><!-- - <link/> --><![CDATA[<link>]]>"
+                    "</link>"
                     "<?processing instruction?>")
     (is (string= "ab<" (projection::urdf-link-name (first-link model))))
     (is (= 1 (length (projection:urdf-model-links model))))

@@ -3,7 +3,8 @@
 ;;;; MESH-SHAPE reads a file with the C API of libassimp, takes the corners of all meshes where the
 ;;;; nodes of the file put them, scales them and asks Bullet for a hull of at most 40 vertices.
 ;;;; Hulls are kept by file, its date and size, and scale.  As ROS does it, a Collada file's unit
-;;;; counts and its upward axis does not: z is upwards.
+;;;; counts and its upward axis does not: z is upwards.  A Collada file is checked first
+;;;; (collada.lisp).
 
 (in-package #:discrepancy-finder.projection)
 
@@ -116,6 +117,8 @@ read."
 
 (defun mesh-corners (path element)
   "Return the list of the different corners (x y z) in the mesh file PATH, which ELEMENT names."
+  (when (string-equal (pathname-type path) "dae")
+    (check-collada path element))
   (foreign:with-c-float-traps
     (with-imported-scene (scene (source:native-name path))
       (when (cffi:null-pointer-p scene)
@@ -151,10 +154,6 @@ read."
     (bullet:bullet-error (condition)
       (urdf-problem element "the mesh ~a has no hull: ~a" (source:native-name path)
                     (string-right-trim "." (source:condition-sentence condition))))))
-
-(defun file-size (path)
-  (with-open-file (stream path :element-type '(unsigned-byte 8))
-    (file-length stream)))
 
 (defun mesh-shape (element)
   "Return the shape of the <mesh> ELEMENT: (:hull (x y z)...)."

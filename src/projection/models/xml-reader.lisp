@@ -208,21 +208,24 @@
     (let* ((line (current-line cursor))
            (text (skip-past cursor ">" "the DOCTYPE")))
       (when (or (find #\[ text) (search "SYSTEM" text) (search "PUBLIC" text))
-        (urdf-problem line "a DOCTYPE with declarations or with an external file is not followed")))))
+        (urdf-problem line "a DOCTYPE with declarations or an external file is not followed")))))
 
 (defun skip-asides (cursor)
   (loop do (skip-white cursor)
         while (skip-aside cursor)))
 
-(defun skip-text (cursor)
-  "Move CURSOR to the next markup; the references in the text before it must be right."
+(defun accept-text (cursor open)
+  "Move CURSOR to the next markup; what is before it is text of the element OPEN."
   (let* ((start (cursor-position cursor))
          (line (current-line cursor))
          (end (or (position #\< (cursor-text cursor) :start start)
                   (length (cursor-text cursor)))))
     (setf (cursor-position cursor) end)
-    (when (find #\& (cursor-text cursor) :start start :end end)
-      (expanded (subseq (cursor-text cursor) start end) line))))
+    (when (position-if-not #'white-p (cursor-text cursor) :start start :end end)
+      (let ((text (subseq (cursor-text cursor) start end)))
+        (setf (xml-element-text open)
+              (concatenate 'string (xml-element-text open)
+                           (if (find #\& text) (expanded text line) text)))))))
 
 (defun start-tag (cursor)
   "Return the element whose start tag is at CURSOR, and true if it is empty."
@@ -250,7 +253,7 @@
   (multiple-value-bind (root empty) (start-tag cursor)
     (let ((open (if empty '() (list root))))
       (loop while open
-            do (skip-text cursor)
+            do (accept-text cursor (first open))
                (cond ((null (next cursor))
                       (malformed (xml-element-line (first open)) "<~a>, which begins here, is not ~
                                                                   closed"

@@ -1,17 +1,17 @@
 ;;;; XML elements that know their lines, and how to take them apart.
 ;;;;
-;;;; READ-XML (xml-reader.lisp) returns the root element of a file.  Text between elements is
-;;;; dropped, URDF has none.  URDF-PROBLEM signals what is wrong with an element; it names the file,
-;;;; the line and the link or joint in which it is.
+;;;; READ-XML (xml-reader.lisp) returns the root element of a file.  URDF-PROBLEM signals what is
+;;;; wrong with an element; it names the file, the line and the link or joint in which it is.
 
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (xml-element (:copier nil))
   "An element: its NAME with prefix, if any, its ATTRIBUTES, a list of (name . value), its CHILDREN,
-and the LINE of the file in which it begins."
+the TEXT directly in it, empty if that is white space, and the LINE of the file in which it begins."
   (name "" :type string :read-only t)
   (attributes '() :type list :read-only t)
   (children '() :type list)
+  (text "" :type string)
   (line nil :type (or null integer) :read-only t))
 
 (defmethod print-object ((element xml-element) stream)

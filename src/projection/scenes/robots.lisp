@@ -17,7 +17,8 @@
 
 (defstruct (arm-roles (:copier nil))
   "An arm: the names of its JOINTS from the body outwards, of the link TOOL, of the joint GRIPPER
-and of the links FINGERS; PARKED are the joints' positions (m or rad) when the arm is out of the way."
+and of the links FINGERS; PARKED are the joints' positions (m or rad) when the arm is out of the
+way."
   (name nil :type keyword :read-only t)
   (joints '() :type list :read-only t)
   (tool "" :type string :read-only t)
