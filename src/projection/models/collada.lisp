@@ -51,7 +51,7 @@ counts what cannot be in a file of SIZE octets."
                       ("scale" "0123456789+-.eE"))))
     (when characters
       (let ((odd (find-if-not (lambda (character)
-                                (or (white-p character) (find character characters)))
+                                (or (find character *white-space*) (find character characters)))
                               (xml-element-text element))))
         (when odd
           (urdf-problem element "<~a> holds ~:c where numbers were expected"

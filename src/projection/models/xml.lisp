@@ -38,6 +38,9 @@ the TEXT directly in it, empty if that is white space, and the LINE of the file 
 
 ;;; Taking elements apart
 
+(defparameter *white-space* '(#\Space #\Tab #\Newline #\Return)
+  "The white space of XML.")
+
 (defun children (element name)
   "Return the children of ELEMENT that have NAME."
   (remove name (xml-element-children element) :key #'xml-element-name :test-not #'string=))
