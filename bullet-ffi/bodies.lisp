@@ -53,13 +53,18 @@
     (setf (gethash (body-name body) (world-body-names world)) body)
     (vector-push-extend body (world-body-vector world))))
 
-(defun put-pose (pose numbers start)
-  "Write the seven numbers of POSE into NUMBERS from START on."
+(declaim (inline write-pose))
+(defun write-pose (pose numbers &optional (start 0))
+  "Put the seven numbers of POSE into the vector NUMBERS, from START on; return it."
   (declare (type (simple-array double-float (*)) numbers) (type fixnum start))
-  (with-pose-numbers (pose)
-    (loop for number of-type double-float in (list x y z qx qy qz qw)
-          for index of-type fixnum from start
-          do (setf (aref numbers index) number))))
+  (setf (aref numbers start) (geometry:pose-x pose)
+        (aref numbers (+ start 1)) (geometry:pose-y pose)
+        (aref numbers (+ start 2)) (geometry:pose-z pose)
+        (aref numbers (+ start 3)) (geometry:pose-qx pose)
+        (aref numbers (+ start 4)) (geometry:pose-qy pose)
+        (aref numbers (+ start 5)) (geometry:pose-qz pose)
+        (aref numbers (+ start 6)) (geometry:pose-qw pose))
+  numbers)
 
 (defun make-body (world name shape pose kind mass inertia inertial-pose material)
   "Return a new body, registered in WORLD.  Only the poses, SHAPE and INERTIA are still to be
@@ -67,9 +72,9 @@ checked; MATERIAL is a list of five numbers."
   (let ((numbers (make-array 23 :element-type 'double-float))
         (owner (list "body ~a" name))
         (body nil))
-    (put-pose pose numbers 0)
+    (write-pose pose numbers)
     (setf (aref numbers 7) mass)
-    (put-pose inertial-pose numbers 11)
+    (write-pose inertial-pose numbers 11)
     (replace numbers material :start1 18)
     (with-shape (shape-pointer shape owner)
       (when (eq kind :dynamic)

@@ -35,12 +35,13 @@
 
 (defun make-checkpoint (world)
   "Return a checkpoint of WORLD as it is now, and let WORLD forget what a checkpoint does not hold.
-Signals BULLET-ERROR if WORLD is closed."
+Signals BULLET-ERROR if WORLD is closed or a number in it not finite any more."
   (let* ((length (invoke ('make-checkpoint pointer world) (%checkpoint-size pointer)))
          (numbers (make-array length :element-type 'double-float)))
     (cffi:with-pointer-to-vector-data (numbers-pointer numbers)
       (invoke ('make-checkpoint pointer world)
-          (%checkpoint-make pointer numbers-pointer length)))
+          (%checkpoint-make pointer numbers-pointer length)
+        (:bad-number "something in the world is not at a finite place any more")))
     (%make-checkpoint (world-steps world) numbers
                       (map 'list #'attachment-pair (world-attachment-vector world)))))
 

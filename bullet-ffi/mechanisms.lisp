@@ -178,19 +178,7 @@ body is not a kinematic one of WORLD, or a number is out of range."
 
 ;;; Forward kinematics
 
-(declaim (inline write-pose read-pose))
-(defun write-pose (pose numbers &optional (start 0))
-  "Put the seven numbers of POSE into the vector NUMBERS."
-  (declare (type positions numbers) (type fixnum start))
-  (setf (aref numbers start) (geometry:pose-x pose)
-        (aref numbers (+ start 1)) (geometry:pose-y pose)
-        (aref numbers (+ start 2)) (geometry:pose-z pose)
-        (aref numbers (+ start 3)) (geometry:pose-qx pose)
-        (aref numbers (+ start 4)) (geometry:pose-qy pose)
-        (aref numbers (+ start 5)) (geometry:pose-qz pose)
-        (aref numbers (+ start 6)) (geometry:pose-qw pose))
-  numbers)
-
+(declaim (inline read-pose))
 (defun read-pose (numbers)
   (declare (type (simple-array double-float (7)) numbers))
   (geometry:quaternion-pose (aref numbers 0) (aref numbers 1) (aref numbers 2) (aref numbers 3)

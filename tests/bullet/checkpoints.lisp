@@ -156,6 +156,14 @@ joints." (bullet:restore-checkpoint other checkpoint))
           (signals bullet:bullet-error
             (bullet:restore-checkpoint heavier (bullet:make-checkpoint world))))))))
 
+(test worlds-of-endless-numbers-have-no-checkpoint
+  (bullet:with-world (world :gravity -9d8 :time-step 1)
+    (add-cube world :cube 0 0)
+    (bullet:step-world world 2)
+    (refuses "make-checkpoint failed: something in the world is not at a finite place any more."
+             (bullet:make-checkpoint world))
+    (is (integerp (bullet:state-hash (bullet:step-world world))))))
+
 (test worlds-with-shared-shapes-in-threads-have-the-same-bits
   (flet ((live ()
            (bullet:with-world (world)

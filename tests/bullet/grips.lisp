@@ -4,8 +4,8 @@
 
 (in-suite bullet)
 
-(defun carry (&key (mass 0.4d0) (beside 0d0) (above 0d0) (acceleration 0d0) (turn 0d0)
-                (capacity 20d0) (axis '(0 1 0)) (steps 120))
+(defun hold-and-drive (&key (mass 0.4d0) (beside 0d0) (above 0d0) (acceleration 0d0) (turn 0d0)
+                         (capacity 20d0) (axis '(0 1 0)) (steps 120))
   "Hold an item that is gripped BESIDE and ABOVE its centre of mass for 1/4 s, then drive along x
 with ACCELERATION and turn about z with the angular acceleration TURN.  Return the last utilization,
 whether the item was lost, and whether it is still held."
@@ -41,8 +41,8 @@ inertia on the arm ABOVE."
                (0.4d0 0.02d0 0.05d0 2d0) (0.4d0 -0.02d0 0.05d0 3d0) (1d0 -0.005d0 0.02d0 1d0))
         for expected = (utilization mass beside above acceleration 1000d0)
         do (is (near expected (* 1d-3 expected)
-                     (carry :mass mass :beside beside :above above :acceleration acceleration
-                            :capacity 1000d0)))))
+                     (hold-and-drive :mass mass :beside beside :above above
+                                     :acceleration acceleration :capacity 1000d0)))))
 
 (test grip-is-lost-beyond-its-capacity
   (loop for (mass beside above acceleration)
@@ -51,8 +51,8 @@ inertia on the arm ABOVE."
         for limit = (utilization mass beside above acceleration 1d0)
         do (flet ((lost-p (capacity)
                     (multiple-value-bind (last lost live)
-                        (carry :mass mass :beside beside :above above
-                               :acceleration acceleration :capacity capacity)
+                        (hold-and-drive :mass mass :beside beside :above above
+                                        :acceleration acceleration :capacity capacity)
                       (declare (ignore last))
                       (is (not (eq lost live)))
                       lost)))
@@ -61,8 +61,8 @@ inertia on the arm ABOVE."
 
 (test grip-holds-along-its-axis
   "Across the axis there is nothing to bear if gravity is along it."
-  (is (near 0 1d-6 (carry :axis '(0 0 1))))
-  (is (near (/ (* 0.4d0 2) 20) 1d-4 (carry :axis '(0 0 1) :acceleration 2d0))))
+  (is (near 0 1d-6 (hold-and-drive :axis '(0 0 1))))
+  (is (near (/ (* 0.4d0 2) 20) 1d-4 (hold-and-drive :axis '(0 0 1) :acceleration 2d0))))
 
 (test turning-loads-a-grip-by-the-lever
   "An item 0.1 m from the turning axis has that much times the angular acceleration."
@@ -70,7 +70,7 @@ inertia on the arm ABOVE."
     (is (near (sqrt (+ (expt (/ (* 0.4d0 alpha 0.1d0) 100) 2)
                        (expt (/ (* alpha inertia) (* 100 0.012d0)) 2)))
               2d-4
-              (carry :axis '(0 0 1) :turn alpha :capacity 100d0 :steps 6)))))
+              (hold-and-drive :axis '(0 0 1) :turn alpha :capacity 100d0 :steps 6)))))
 
 (test lost-child-keeps-its-velocity-and-falls
   (bullet:with-world (world)
