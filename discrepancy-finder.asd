@@ -267,34 +267,58 @@ The environment variable CXX names another compiler than g++."))
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
   :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "alexandria"
-               "xmls")
+               "cffi")
   :pathname "src/projection/"
   :serial t
   :components ((:file "package") (:file "conditions")
                (:module "models" :serial t
-                :components ((:file "urdf")))
+                :components ((:file "xml") (:file "xml-reader") (:file "numbers") (:file "inertia") (:file "packages")
+                             (:file "meshes") (:file "links") (:file "joints") (:file "urdf")
+                             (:file "groups")))
                (:module "scenes" :serial t
-                :components ((:file "scene")))
+                :components ((:file "clauses") (:file "parameters") (:file "scene")
+                             (:file "materials") (:file "robots") (:file "reading")))
                (:module "worlds" :serial t
-                :components ((:file "robot") (:file "projection")))
+                :components ((:file "outlines") (:file "blueprints") (:file "robot")
+                             (:file "projection") (:file "building") (:file "observations")
+                             (:file "performing")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "head")))
+                :components ((:file "profiles") (:file "runner") (:file "head")
+                             (:file "torso")))
                (:module "navigation" :serial t
-                :components ((:file "going")))
+                :components ((:file "terrain") (:file "footing") (:file "base-paths")
+                             (:file "surroundings") (:file "base-motion") (:file "going")))
                (:module "perception" :serial t
-                :components ((:file "surface") (:file "detecting")))
+                :components ((:file "hulls") (:file "surface") (:file "seeing")
+                             (:file "places") (:file "detecting") (:file "looking")))
                (:module "manipulation" :serial t
-                :components ((:file "column-arm")))))
+                :components ((:file "column-arm") (:file "extents") (:file "grasps")
+                             (:file "fitting") (:file "arms") (:file "gripper") (:file "ways")
+                             (:file "smooth-ways") (:file "reaching") (:file "picking")
+                             (:file "placing") (:file "containers") (:file "modules")))
+               (:module "actions" :serial t
+                :components ((:file "places") (:file "base-poses") (:file "moving")
+                             (:file "searching") (:file "environment") (:file "fetching")
+                             (:file "transporting") (:file "groundings")))))
+
+(asdf:defsystem "discrepancy-finder/statistics"
+  :description "Distributions, regression, and rules that decide when there are enough samples."
+  :depends-on ("discrepancy-finder/geometry")
+  :pathname "src/statistics/"
+  :serial t
+  :components ((:file "package") (:file "conditions") (:file "normal") (:file "beta")
+               (:file "student") (:file "least-squares") (:file "regression") (:file "rules")
+               (:file "evidence") (:file "paper-rule") (:file "zero-failure")
+               (:file "prediction")))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
   :depends-on ("discrepancy-finder/symbolic-execution" "discrepancy-finder/projection"
-               "discrepancy-finder/json" "alexandria")
+               "discrepancy-finder/statistics" "discrepancy-finder/json" "alexandria")
   :pathname "src/discrepancy/"
   :serial t
-  :components ((:file "package") (:file "statistics-conditions") (:file "conditions")
-               (:file "random") (:file "quantile") (:file "least-squares") (:file "confidence")
-               (:file "paper-rule") (:file "abstraction") (:file "define-abstraction")
+  :components ((:file "package") (:file "conditions")
+               (:file "random") (:file "abstraction") (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "replay")
                (:file "replay-file")))
@@ -367,13 +391,21 @@ The environment variable CXX names another compiler than g++."))
                              (:file "contacts") (:file "checkpoints") (:file "mechanisms")
                              (:file "motion-runs")))
                (:module "projection" :serial t
-                :components ((:file "two-regions") (:file "head") (:file "perception")))
+                :components ((:file "two-regions") (:file "head") (:file "perception")
+                             (:file "seeing") (:file "manipulation")
+                             (:file "manipulation-kitchen") (:file "actions-symbolic")))
+               (:module "statistics"
+                :serial t
+                :components ((:file "normal") (:file "distributions") (:file "least-squares")
+                             (:file "paper-rule") (:file "guaranteed-rules")))
                (:module "discrepancy"
                 :serial t
-                :components ((:file "random") (:file "quantile") (:file "least-squares")
-                             (:file "confidence") (:file "abstraction") (:file "search")
+                :components ((:file "random") (:file "abstraction") (:file "search")
                              (:file "replay")
                              (:file "table-top")))
+               (:module "kitchen" :pathname "projection/" :serial t
+                :components ((:file "kitchen") (:file "kitchen-effects")
+                             (:file "kitchen-fidelity")))
                (:file "interface") (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))

@@ -16,8 +16,8 @@
 (in-package #:discrepancy-finder.bullet)
 
 (define-raw %motion-begin "dfb_motion_begin" :int
-  (world :pointer) (mechanism :int) (start :pointer) (goal :pointer) (base-moves :int)
-  (fast :int) (contact-distance :double) (watched-count :int) (watched :pointer)
+  (world :pointer) (mechanism :int) (start :pointer) (goal :pointer)
+  (via-count :int) (via :pointer) (base-moves :int) (fast :int) (contact-distance :double) (watched-count :int) (watched :pointer)
   (obstacle-count :int) (obstacles :pointer))
 (define-raw %motion-continue "dfb_motion_continue" :int
   (world :pointer) (mechanism :int) (count :int) (bases :pointer) (fractions :pointer)
@@ -34,18 +34,22 @@
                (,function ,pointer))
              (,function (cffi:null-pointer)))))))
 
-(defun begin-motion (mechanism start goal base-moves fidelity contact-distance watched obstacles)
-  (let ((world (mechanism-world mechanism)))
+(defun begin-motion (mechanism start through goal base-moves fidelity contact-distance watched
+                     obstacles)
+  (let ((world (mechanism-world mechanism))
+        (via (and through (apply #'concatenate 'positions through))))
     (cffi:with-pointer-to-vector-data (watched-pointer watched)
       (cffi:with-pointer-to-vector-data (obstacles-pointer obstacles)
         (with-optional-vector (start-pointer start)
           (with-optional-vector (goal-pointer goal)
-            (invoke ('run-motion pointer world)
-                (%motion-begin pointer (mechanism-id mechanism) start-pointer goal-pointer
-                               (if base-moves 1 0) (if (eq fidelity :fast) 1 0)
-                               contact-distance (length watched) watched-pointer
-                               (length obstacles) obstacles-pointer)
-              (:bad-number "the start or the goal is not finite"))))))))
+            (with-optional-vector (via-pointer via)
+              (invoke ('run-motion pointer world)
+                  (%motion-begin pointer (mechanism-id mechanism) start-pointer goal-pointer
+                                 (length through) via-pointer (if base-moves 1 0)
+                                 (if (eq fidelity :fast) 1 0) contact-distance
+                                 (length watched) watched-pointer
+                                 (length obstacles) obstacles-pointer)
+                (:bad-number "a position of the start, the goal or in between is not finite")))))))))
 
 (defun continue-motion (mechanism steps bases fractions)
   "Do the STEPS of the motion that was begun; return how many were done and the bodies of the
@@ -86,12 +90,14 @@ contact, if any."
     (fail 'run-motion "the ~a are no vector of ~d double floats for each of ~d steps"
           thing size steps)))
 
-(defun run-motion (mechanism &key steps bases fractions start goal (fidelity :fast) watched
-                               obstacles (contact-distance 0))
+(defun run-motion (mechanism &key steps bases fractions start through goal (fidelity :fast)
+                               watched obstacles (contact-distance 0))
   "Move MECHANISM for a number of STEPS.  BASES has the pose of its base after each step, seven
 double floats each (see POSE-COMPONENTS), or is NIL if the base stays; FRACTIONS the part of the
 straight way of all joints from the positions START to GOAL, one double float each, or is NIL if the
 joints stay.  START is by default where they are; joints that are not at START are put there first.
+With THROUGH, a list of vectors of positions, the joints take a smooth curve through these, each
+piece of which is the same part of the way.
 
 WATCHED and OBSTACLES are lists of bodies.  A step in which a watched body (of a link, or attached
 to one) would come as near as CONTACT-DISTANCE (m) to an obstacle is not done, and ends the motion:
@@ -109,8 +115,10 @@ not finite, a vector too short or a body of another world."
   (check-steps fractions 1 steps "fractions")
   (when start (check-positions mechanism start 'run-motion))
   (when goal (check-positions mechanism goal 'run-motion))
+  (dolist (positions through)
+    (check-positions mechanism positions 'run-motion))
   (let ((world (mechanism-world mechanism)))
-    (begin-motion mechanism start goal (not (null bases)) fidelity
+    (begin-motion mechanism start through goal (not (null bases)) fidelity
                   (number-of "the contact distance" contact-distance 'run-motion :not-negative)
                   (body-ids world watched 'run-motion)
                   (body-ids world obstacles 'run-motion))

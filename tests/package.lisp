@@ -17,6 +17,7 @@
                     (#:bullet #:discrepancy-finder.bullet)
                     (#:compat #:discrepancy-finder.cram-compat)
                     (#:projection #:discrepancy-finder.projection)
+                    (#:statistics #:discrepancy-finder.statistics)
                     (#:discrepancy #:discrepancy-finder.discrepancy)
                     (#:df #:discrepancy-finder))
   (:export #:run-all-tests #:report-all-tests #:tests-failed #:*long*))

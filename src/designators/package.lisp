@@ -28,11 +28,11 @@ objects and humans, and how they are resolved.")
    #:copy-designator #:merge-desig-descriptions #:extend-designator-properties
    #:update-designator-properties #:make-effective-designator #:matches-description-p
    ;; resolution
-   #:reference #:next-solution #:designator-groundings #:resolve-designator
+   #:reference #:next-solution #:designator-groundings #:resolve-designator #:user-grounded-p
    #:*default-role* #:default-role
    #:designated-pose #:object-designator-data #:object-identifier #:object-pose
    ;; predicates of prolog
-   #:action-grounding #:motion-grounding #:location-grounding
+   #:action-grounding #:default-action-grounding #:motion-grounding #:location-grounding
    #:desig-prop #:property #:desig-location-prop
    #:current-designator #:desig-solution #:desig-reference #:desig-solution-not-rejected
    #:designator? #:action-desig? #:motion-desig? #:loc-desig? #:obj-desig? #:human-desig?

@@ -6,6 +6,7 @@
 ;;;;   (designator-groundings ?d ?solutions)    the lazy list of its solutions, for MEMBER
 ;;;;   (action-grounding ?d ?solution), (motion-grounding ?d ?solution),
 ;;;;   (location-grounding ?d ?pose)            what designators mean; fact groups add to these.
+;;;;   (default-action-grounding ?d ?solution)  what an action means that has no action-grounding.
 
 (in-package #:discrepancy-finder.designators)
 
@@ -64,7 +65,8 @@
   (<- (desig-equal ?first ?second)
     (lisp-pred desig-equal ?first ?second)))
 
-(def-fact-group designator-solutions (action-grounding motion-grounding location-grounding)
+(def-fact-group designator-solutions (action-grounding default-action-grounding
+                                      motion-grounding location-grounding)
   (<- (designator-groundings ?designator ?solutions)
     (lisp-type ?designator designator)
     (lisp-fun groundings-or-nil ?designator ?solutions)
@@ -91,6 +93,9 @@
   (document
    action-grounding "(action-grounding designator solution): the action DESIGNATOR means SOLUTION,
 the list of a function and its arguments.  Fact groups add to it."
+   default-action-grounding "(default-action-grounding designator solution): the action DESIGNATOR
+means SOLUTION, the list of a function and its arguments, if ACTION-GROUNDING has no solution for
+it.  What executes plans adds to it."
    motion-grounding "(motion-grounding designator solution): the motion DESIGNATOR means SOLUTION,
 the list of a command and its arguments.  Fact groups add to it."
    location-grounding "(location-grounding designator pose): POSE is a place that the location

@@ -5,7 +5,9 @@
 ;;;; list:
 ;;;;   action, motion   what prolog proves of (action-grounding designator ?solution) and
 ;;;;                    (motion-grounding designator ?solution): a list of the function or command
-;;;;                    and its arguments
+;;;;                    and its arguments; an action without a solution has those of
+;;;;                    (default-action-grounding designator ?solution), so that what the system
+;;;;                    brings along gives way to what a user defines
 ;;;;   location         poses that generators propose and validation functions accept
 ;;;;                    (locations.lisp)
 ;;;;   object, human    what perception put into the slot DATA, nothing else.
@@ -26,9 +28,19 @@ empty one if there are none.  Does not change DESIGNATOR."))
   (lazy-mapcar (lambda (bindings) (var-value '?solution bindings))
                (prolog (list predicate designator '?solution))))
 
+(defun user-grounded-p (designator)
+  "Return true if DESIGNATOR is an action for which the predicate ACTION-GROUNDING has a solution,
+and not only DEFAULT-ACTION-GROUNDING."
+  (and (typep designator 'action-designator)
+       (lazy-car (grounding-solutions 'action-grounding designator))
+       t))
+
 (defmethod resolve-designator ((designator action-designator) role)
   (declare (ignore role))
-  (grounding-solutions 'action-grounding designator))
+  (let ((own (grounding-solutions 'action-grounding designator)))
+    (if (lazy-car own)
+        own
+        (grounding-solutions 'default-action-grounding designator))))
 
 (defmethod resolve-designator ((designator motion-designator) role)
   (declare (ignore role))

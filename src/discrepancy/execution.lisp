@@ -45,6 +45,7 @@ is :TRACE-DONE, :LEFT-TRACE, :FINISHED, :TOO-MANY-STEPS or the class of an unhan
   (steps '() :type list :read-only t)
   (final-state '() :type list :read-only t)
   (final-values #() :type vector :read-only t)
+  (tolerances '() :type list :read-only t)
   (hash 0 :type (unsigned-byte 64) :read-only t)
   (seconds 0d0 :type double-float :read-only t))
 
@@ -61,6 +62,8 @@ the class of an unhandled failure."
       "Return what was observed at the end of a run: a list of (atom . truth)."
       (documentation 'run-final-values 'function)
       "Return the vector of the final parameters of a run (m, rad)."
+      (documentation 'run-tolerances 'function)
+      "Return the property list of the values that the scene's tolerances had in a run."
       (documentation 'run-hash 'function)
       "Return the hash of the bits of the final state of a run."
       (documentation 'run-seconds 'function)
@@ -219,14 +222,27 @@ the same in every run, and the same as in symbolic execution."
       (when (monitor-fatal monitor)
         (error (monitor-fatal monitor))))))
 
+(defun projection-tolerances (projection)
+  "Return the property list of the values that the tolerances of the scene have in PROJECTION."
+  (loop for (name) in (projection:scene-tolerances (projection:projection-scene projection))
+        append (list name (projection:projection-parameter projection name))))
+
+(defmacro with-open-projection ((variable form) &body body)
+  "Evaluate BODY with VARIABLE bound to the projection that FORM makes, and close that afterwards."
+  `(let ((,variable ,form))
+     (unwind-protect (progn ,@body)
+       (projection:close-projection ,variable))))
+
 (defun execute-sample (domain plan sample &key trace (execution :trace) arguments
                                             (output (make-broadcast-stream)))
   "Run PLAN (a symbol) with ARGUMENTS in a new world of DOMAIN that begins with SAMPLE, and return
 the RUN.  With a TRACE the sample must map to its initial state, else the run is invalid and has no
 steps; EXECUTION is :TRACE or :PLAN.  What the plan prints goes to OUTPUT.  The same arguments give
 the same bits, provided that the plan does not read global variables that it writes."
-  (projection:with-projection (projection (domain-scene domain)
-                                          :poses (sample-poses domain sample))
+  (with-open-projection (projection (projection:make-projection
+                                     (domain-scene domain)
+                                     :poses (sample-poses domain sample)
+                                     :parameters (sample-tolerances sample)))
     ;; What is built into something else is invalid, however it comes apart.
     (let* ((built (sample-validity projection nil '()))
            (settled (projection:settle projection))
@@ -236,6 +252,7 @@ the same bits, provided that the plan does not read global variables that it wri
                            (t (sample-validity projection trace initial-state)))))
       (flet ((result (ending steps)
                (make-run :sample sample :validity validity :ending ending
+                         :tolerances (projection-tolerances projection)
                          :initial-state initial-state :steps steps
                          :final-state (discrete-state domain projection)
                          :final-values (if trace

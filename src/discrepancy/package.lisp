@@ -1,7 +1,7 @@
 (defpackage #:discrepancy-finder.discrepancy
   (:documentation "Where theory and projection meet: abstraction, sampling, confidence, comparison,
 search, replay.")
-  (:use #:cl #:discrepancy-finder.geometry)
+  (:use #:cl #:discrepancy-finder.geometry #:discrepancy-finder.statistics)
   (:local-nicknames (#:z3 #:discrepancy-finder.z3)
                     (#:ec #:discrepancy-finder.event-calculus)
                     (#:plan #:discrepancy-finder.plan-language)
@@ -19,24 +19,14 @@ search, replay.")
    #:discrete-state #:observed-fluents
    ;; random numbers
    #:philox #:content-hash #:unit-float
-   ;; quantiles and regression
-   #:normal-cdf #:normal-quantile #:two-sided-z
-   #:least-squares #:fit #:fit-coefficients #:fit-residual-sum #:fit-rank #:fit-columns
    ;; samples
    #:parameter #:parameter-name #:parameter-min #:parameter-max
+   #:parameter-body #:parameter-axis #:tolerance-p
    #:initial-parameters #:final-parameters #:draw-sample
-   #:sample #:sample-index #:sample-values #:sample-text
-   ;; confidence
-   #:confidence-rule #:confidence-rule-confidence #:confidence-verdict
-   #:make-confidence-rule #:register-confidence-rule #:paper-rule #:paper-interval
-   #:parameter-sample #:make-parameter-sample #:parameter-sample-initial #:parameter-sample-final
-   #:parameter-region #:make-parameter-region #:parameter-region-initial-bounds
-   #:parameter-region-final-bounds
-   #:verdict #:verdict-status #:verdict-reason #:verdict-count #:verdict-intervals
-   #:verdict-coefficients #:verdict-sigma #:verdict-z
+   #:sample #:sample-index #:sample-values #:sample-text #:sample-tolerances
    ;; runs and their judgement
    #:execute-sample #:run-plan #:run #:run-steps #:run-initial-state #:run-final-state #:run-hash
-   #:run-seconds #:run-validity #:run-final-values #:run-ending
+   #:run-seconds #:run-validity #:run-tolerances #:run-final-values #:run-ending
    #:run-step #:run-step-designator #:run-step-outcome #:run-step-state
    #:run-step-failure #:run-text
    #:judge-run #:judgement #:judgement-verdict #:judgement-divergence
@@ -59,6 +49,4 @@ search, replay.")
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy
    #:continue-search #:next-trace #:accept
-   #:invalid-confidence #:invalid-confidence-value
-   #:unknown-confidence-rule #:unknown-confidence-rule-name #:unknown-confidence-rule-known
    #:invalid-argument))

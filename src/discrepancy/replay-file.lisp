@@ -88,12 +88,13 @@ REPLAY-ERROR."))
 
 (defun read-parameters (object scene)
   (loop for (name . value) in object
-        for known = (find name (projection:scene-parameters scene)
-                          :key (lambda (entry) (ec:name-text (first entry))) :test #'string=)
-        do (unless (and known (typep value '(double-float (0d0))))
-             (replay-problem "~s: ~a is no parameter of the scene with a positive number"
-                             "parameters" name))
-        append (list (first known) value)))
+        for key = (find-symbol (string-upcase name) :keyword)
+        do (unless (and key (projection:scene-knows-p scene key) (typep value 'double-float))
+             (replay-problem "~s: ~a is no parameter of the scene with a number" "parameters" name))
+        append (handler-case (projection:normalized-parameters scene (list key value))
+                 (projection:impossible-parameter (condition)
+                   (replay-problem "~s: ~a" "parameters"
+                                   (string-right-trim "." (princ-to-string condition)))))))
 
 (defun read-step (object domain)
   (let ((event (value-of object "event" '(or string (eql :null)))))
@@ -146,7 +147,10 @@ theory must allow them."
     value))
 
 (defun read-sample (object parameters)
-  (let ((values (value-of object "values" 'list)))
+  (let ((values (append (value-of object "values" 'list)
+                        ;; Where no tolerance is drawn there is no such key.
+                        (and (json:get-key object "tolerances" nil)
+                             (value-of object "tolerances" 'list)))))
     (unless (= (length values) (length parameters))
       (replay-problem "the sample has ~d values where the trace has ~d parameters"
                       (length values) (length parameters)))

@@ -49,10 +49,16 @@
                 (symbolic:trace-steps trace))))
 
 (defun sample-json (sample)
-  (json:object "index" (sample-index sample)
-               "values" (loop for parameter in (sample-parameters sample)
-                              for value across (sample-values sample)
-                              collect (cons (parameter-name parameter) value))))
+  "Return the JSON object of SAMPLE; it has a key \"tolerances\" if some were drawn."
+  (let ((values (loop for parameter in (sample-parameters sample)
+                      for value across (sample-values sample)
+                      collect (list parameter (parameter-name parameter) value))))
+    (flet ((entries (tolerance)
+             (loop for (parameter name value) in values
+                   when (eq tolerance (tolerance-p parameter))
+                     collect (cons name value))))
+      (append (json:object "index" (sample-index sample) "values" (entries nil))
+              (and (entries t) (json:object "tolerances" (entries t)))))))
 
 (defun divergence-json (divergence)
   (json:object "step" (1+ (divergence-step divergence))

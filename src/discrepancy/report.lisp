@@ -8,11 +8,6 @@
 (defun state-text (atoms)
   (format nil "~:[nothing~;~:*~{~a~^ ~}~]" (mapcar #'ec:atom-text atoms)))
 
-(defun number-text (number)
-  "Return the shortest decimal text of the real NUMBER."
-  (let ((*read-default-float-format* 'double-float))
-    (princ-to-string (if (integerp number) number (decimal-double number)))))
-
 (defun parameters-text (parameters)
   "Return a text for the property list PARAMETERS of scene parameters, or NIL."
   (and parameters
@@ -40,9 +35,10 @@
   (let ((poses (sample-poses domain sample)))
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
-          do (format stream "    ~a = ~,4f ~a~%" (parameter-name parameter) value
-                     (axis-unit (parameter-axis parameter))))
-    (loop for body in (remove-duplicates (mapcar #'parameter-body (sample-parameters sample)))
+          do (format stream "    ~a~@[ (~a)~]~%" (value-text parameter value)
+                     (parameter-meaning parameter)))
+    (loop for body in (remove-duplicates
+                       (remove nil (mapcar #'parameter-body (sample-parameters sample))))
           for region = (symbolic:region-of-pose domain (getf poses body))
           do (format stream "    ~a is in ~:[no region~;~:*~a~]~%" (ec:name-text body)
                      (and region (ec:name-text region))))))
@@ -93,13 +89,24 @@ and simulation part, both final states, and how COMMAND replays it."
           (let ((rejected (trace-result-rejected result))) (and (plusp rejected) rejected))
           (let ((left (trace-result-left-trace result))) (and (plusp left) left))))
 
+(defun drawn-text (result)
+  "Return a text that tells which tolerances the simulations of RESULT have drawn, or NIL."
+  (let ((tolerances (tolerance-parameters (domain-scene (result-domain result)))))
+    (and tolerances
+         (format nil "~{~a~^, ~} drawn for each simulation"
+                 (loop for parameter in tolerances
+                       collect (format nil "~a from ~a to ~a" (parameter-name parameter)
+                                       (number-text (parameter-min parameter))
+                                       (number-text (parameter-max parameter))))))))
+
 (defun headline (result)
   (ecase (result-status result)
     (:discrepancy "DISCREPANCY: theory and simulation disagree.")
     (:certified (format nil "NO DISCREPANCY: the rule ~(~a~) is satisfied at ~a % confidence for ~
-                             every trace."
+                             every trace~@[, with ~a~]."
                         (result-rule-name result)
-                        (percent-text (result-confidence result))))
+                        (percent-text (result-confidence result))
+                        (drawn-text result)))
     (:undecided (format nil "UNDECIDED: ~a." (result-reason result)))))
 
 (defun percent-text (fraction)
@@ -117,6 +124,7 @@ and simulation part, both final states, and how COMMAND replays it."
       (format stream "  domain ~a~@[, with ~a~]~%"
               (source-text (symbolic:action-theory-name domain) (domain-file domain))
               (parameters-text (result-parameters result)))
+      (format stream "~@[  tolerances ~a~%~]" (drawn-text result))
       (format stream "  state constraint ~a, rule ~(~a~), confidence ~a, seed ~d~%"
               (ec:name-text (result-constraint result)) (result-rule-name result)
               (number-text (result-confidence result)) (result-seed result))
@@ -135,6 +143,7 @@ and simulation part, both final states, and how COMMAND replays it."
 (defun run-text (run)
   "Return the report of RUN, a text of several lines."
   (with-output-to-string (stream)
+    (format stream "~@[tolerances ~a~%~]" (parameters-text (run-tolerances run)))
     (format stream "initially ~a~%" (state-text (observed-fluents (run-initial-state run))))
     (if (eq (run-validity run) :valid)
         (loop for step in (run-steps run)

@@ -4,25 +4,35 @@
 ;;;; its initial state, each with the bounds of its region or its own range.  Sample i draws each
 ;;;; parameter uniformly: a pure function of seed, trace content and i.  The FINAL-PARAMETERS are
 ;;;; the coordinates that the regions of the trace's final state bound: the confidence rule predicts
-;;;; them.
+;;;; them.  The tolerances of the scene that the user has not set are initial parameters, too: they
+;;;; are drawn with each sample and belong to it.
 
 (in-package #:discrepancy-finder.discrepancy)
 
-(defstruct (parameter (:constructor make-parameter (body axis min max)) (:copier nil))
-  "The coordinate AXIS of BODY between MIN and MAX (m, rad)."
-  (body nil :type keyword :read-only t)
+(defstruct (parameter (:constructor make-parameter (body axis min max &optional meaning))
+                      (:copier nil))
+  "The coordinate AXIS of BODY between MIN and MAX (m, rad); or, where BODY is NIL, the tolerance AXIS
+of the scene, with the MEANING that the scene tells."
+  (body nil :type (or null keyword) :read-only t)
   (axis nil :type keyword :read-only t)
   (min 0d0 :type double-float :read-only t)
-  (max 0d0 :type double-float :read-only t))
+  (max 0d0 :type double-float :read-only t)
+  (meaning nil :type (or null string) :read-only t))
 
 (setf (documentation 'parameter-min 'function)
-      "Return the least value of a parameter (m, rad)."
+      "Return the least value of a parameter (m, rad, or the unit of the tolerance)."
       (documentation 'parameter-max 'function)
       "Return the bound (m, rad) that the values of a parameter do not reach.")
 
+(defun tolerance-p (parameter)
+  "Return true if PARAMETER is a tolerance of the scene, and no coordinate of a body."
+  (null (parameter-body parameter)))
+
 (defun parameter-name (parameter)
-  "Return the name of PARAMETER, such as \"box.x\"."
-  (format nil "~a.~(~a~)" (ec:name-text (parameter-body parameter)) (parameter-axis parameter)))
+  "Return the name of PARAMETER, such as \"box.x\", or \"grip-force\" for a tolerance."
+  (format nil "~@[~a.~]~(~a~)"
+          (and (parameter-body parameter) (ec:name-text (parameter-body parameter)))
+          (parameter-axis parameter)))
 
 (defmethod print-object ((parameter parameter) stream)
   (print-unreadable-object (parameter stream :type t)
@@ -40,16 +50,17 @@
       (documentation 'sample-values 'function)
       "Return the vector of the values of a sample (m, rad), in the order of its parameters.")
 
-(defun axis-unit (axis)
-  (if (eq axis :yaw) "rad" "m"))
+(defun value-text (parameter value)
+  "Return the text of VALUE of PARAMETER, with its name and its unit."
+  (format nil "~a = ~,4f~:[ ~:[m~;rad~]~;~*~]" (parameter-name parameter) value
+          (tolerance-p parameter) (eq (parameter-axis parameter) :yaw)))
 
 (defun sample-text (sample)
   "Return the values of SAMPLE with names and units."
   (format nil "~{~a~^, ~}"
           (loop for parameter in (sample-parameters sample)
                 for value across (sample-values sample)
-                collect (format nil "~a = ~,4f ~a" (parameter-name parameter) value
-                                (axis-unit (parameter-axis parameter))))))
+                collect (value-text parameter value))))
 
 (defmethod print-object ((sample sample) stream)
   (print-unreadable-object (sample stream :type t)
@@ -64,9 +75,15 @@
              (ec:fluent-value state (list (placement-fluent placement) (region-name region))))
            (placement-regions placement)))
 
+(defun tolerance-parameters (scene)
+  "Return the list of the PARAMETERs that the tolerances of SCENE are; those that the user has set
+are none."
+  (loop for (name low high meaning) in (projection:scene-open-tolerances scene)
+        collect (make-parameter nil name low high meaning)))
+
 (defun initial-parameters (domain trace)
-  "Return the list of the PARAMETERs of DOMAIN that are sampled for TRACE.  Signals SAMPLING-ERROR
-if the initial state of TRACE says of a body that it is nowhere, or that an item is held."
+  "Return the list of the PARAMETERs of DOMAIN that are sampled for TRACE: coordinates of bodies, then
+tolerances.  Signals SAMPLING-ERROR if the initial state of TRACE says of a body that it is nowhere, or that an item is held."
   (let ((state (symbolic:trace-initial-state trace)))
     (dolist (observer (domain-observers domain))
       (when (and (attachment-p observer) (ec:fluent-value state (attachment-atom observer)))
@@ -74,16 +91,18 @@ if the initial state of TRACE says of a body that it is nowhere, or that an item
                                :reason (format nil "~a holds initially, and an item in the gripper ~
                                                     is not sampled"
                                                (ec:atom-text (attachment-atom observer))))))
-    (loop for placement in (placements domain)
-          for region = (or (placement-region placement state)
-                           (error 'sampling-error
-                                  :trace trace
-                                  :reason (format nil "no ~a holds initially"
-                                                  (ec:name-text (placement-fluent placement)))))
-          append (loop for (axis min max) in (placement-coordinates placement)
-                       for (nil region-min region-max) = (assoc axis (region-bounds region))
-                       collect (make-parameter (placement-body placement) axis
-                                               (or min region-min) (or max region-max))))))
+    (append
+     (loop for placement in (placements domain)
+           for region = (or (placement-region placement state)
+                            (error 'sampling-error
+                                   :trace trace
+                                   :reason (format nil "no ~a holds initially"
+                                                   (ec:name-text (placement-fluent placement)))))
+           append (loop for (axis min max) in (placement-coordinates placement)
+                        for (nil region-min region-max) = (assoc axis (region-bounds region))
+                        collect (make-parameter (placement-body placement) axis
+                                                (or min region-min) (or max region-max))))
+     (tolerance-parameters (domain-scene domain)))))
 
 (defun final-parameters (domain trace)
   "Return the list of the PARAMETERs of DOMAIN whose final values the theory bounds in TRACE."
@@ -116,8 +135,16 @@ of SEED, CONTENT (the hash of the trace) and INDEX."
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
           for body = (parameter-body parameter)
-          do (setf (getf poses body)
-                   (pose-with (or (getf poses body)
-                                  (projection:scene-body-pose (domain-scene domain) body))
-                              (parameter-axis parameter) value)))
+          unless (tolerance-p parameter)
+            do (setf (getf poses body)
+                     (pose-with (or (getf poses body)
+                                    (projection:scene-body-pose (domain-scene domain) body))
+                                (parameter-axis parameter) value)))
     poses))
+
+(defun sample-tolerances (sample)
+  "Return the property list of the values of tolerances that SAMPLE holds, by their names."
+  (loop for parameter in (sample-parameters sample)
+        for value across (sample-values sample)
+        when (tolerance-p parameter)
+          append (list (parameter-axis parameter) value)))

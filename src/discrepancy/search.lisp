@@ -69,14 +69,14 @@
 ;;; One trace
 
 (defstruct (trace-search (:copier nil))
-  "The sampling of a trace in progress.  SAMPLES and DISCREPANCIES are newest first; IN-A-ROW counts
+  "The sampling of a trace in progress, by RULE.  DISCREPANCIES are newest first; IN-A-ROW counts
 the rejected samples since the last valid one."
   (search nil :read-only t)
   (trace nil :read-only t)
   (parameters '() :type list :read-only t)
   (content 0 :type (unsigned-byte 64) :read-only t)
-  (region nil :read-only t)
-  (samples '() :type list)
+  (rule nil :read-only t)
+  (evidence nil :read-only t)
   (rejected 0 :type (integer 0))
   (in-a-row 0 :type (integer 0))
   (left 0 :type (integer 0))
@@ -93,10 +93,13 @@ the rejected samples since the last valid one."
   (let ((parameters (initial-parameters (search-domain search) trace)))
     (make-trace-search :search search :trace trace :parameters parameters
                        :content (content-hash (symbolic:trace-text trace))
-                       :region (make-parameter-region
-                                (parameter-bounds parameters)
-                                (parameter-bounds (final-parameters (search-domain search)
-                                                                    trace))))))
+                       :rule (rule-for-trace (search-rule search)
+                                             (1+ (length (search-results search))))
+                       :evidence (make-evidence
+                                  (make-parameter-region
+                                   (parameter-bounds parameters)
+                                   (parameter-bounds (final-parameters (search-domain search)
+                                                                       trace)))))))
 
 (defun conclude (trace-search status reason &optional stop)
   "Return the TRACE-RESULT of TRACE-SEARCH, and STOP: whether the whole search ends."
@@ -104,7 +107,7 @@ the rejected samples since the last valid one."
            :trace (trace-search-trace trace-search) :reason reason
            :status (if (trace-search-discrepancies trace-search) :discrepancy status)
            :verdict (trace-search-verdict trace-search)
-           :samples (length (trace-search-samples trace-search))
+           :samples (evidence-blind (trace-search-evidence trace-search))
            :rejected (trace-search-rejected trace-search)
            :left-trace (trace-search-left trace-search)
            :discrepancies (reverse (trace-search-discrepancies trace-search)))
@@ -132,11 +135,10 @@ the rejected samples since the last valid one."
 (defun note-agreement (trace-search sample run)
   "Ask the confidence rule after RUN of SAMPLE, which the theory allows; conclude if it is
 satisfied."
-  (push (make-parameter-sample (sample-values sample) (run-final-values run))
-        (trace-search-samples trace-search))
-  (let ((verdict (confidence-verdict (search-rule (trace-search-search trace-search))
-                                     (reverse (trace-search-samples trace-search))
-                                     (trace-search-region trace-search))))
+  (add-sample (trace-search-evidence trace-search)
+              (make-parameter-sample (sample-values sample) (run-final-values run)))
+  (let ((verdict (evidence-verdict (trace-search-rule trace-search)
+                                   (trace-search-evidence trace-search))))
     (setf (trace-search-verdict trace-search) verdict)
     (when (eq (verdict-status verdict) :confident)
       (conclude trace-search :certified (verdict-reason verdict)))))
@@ -190,14 +192,17 @@ Return the TRACE-RESULT, and true if the whole search is to end."
   (unless test
     (error 'invalid-argument :name name :value value :expected expected)))
 
-(defun find-discrepancies (plan &key domain constraint (confidence 0.95d0) (rule :paper) (seed 1)
-                                  (budget 1000) parameters arguments (execution :trace)
+(defun find-discrepancies (plan &key domain constraint (confidence 0.95d0) (rule :paper) delta
+                                  (seed 1) (budget 1000) parameters arguments (execution :trace)
                                   (compare :final) (on-discrepancy :return) (max-paths 10000))
   "Search for a discrepancy between the theory and the scene of DOMAIN along PLAN (a symbol) and
 return a SEARCH-RESULT.
   DOMAIN          a domain or its name
   CONSTRAINT      the name of the state constraint; NIL: the theory's only one
-  CONFIDENCE      in ]0, 1[, for the confidence RULE, a keyword such as :PAPER
+  CONFIDENCE      in ]0, 1[, for the confidence RULE: :PAPER, :PAPER-SD, :PREDICTION,
+                  :ZERO-FAILURE or :SOUND
+  DELTA           in ]0, 1[, for the last two: the part of a trace's initial region that may be
+                  discrepant all the same; NIL: 0.05
   SEED            of the blind samples, an integer of 64 bits
   BUDGET          the largest number of simulations, but for the one that confirms a discrepancy
   PARAMETERS      property list of scene parameters that differ from the scene's
@@ -206,8 +211,8 @@ return a SEARCH-RESULT.
   ON-DISCREPANCY  :RETURN, or :SIGNAL for DISCREPANCY-FOUND with the restarts CONTINUE-SEARCH,
                   NEXT-TRACE and ACCEPT
 Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, INVALID-CONFIDENCE,
-UNKNOWN-CONFIDENCE-RULE, UNKNOWN-PARAMETER, IMPOSSIBLE-PARAMETER, INVALID-ARGUMENT, and what
-symbolic execution signals."
+INVALID-DELTA, UNKNOWN-CONFIDENCE-RULE, UNKNOWN-PARAMETER, IMPOSSIBLE-PARAMETER, INVALID-ARGUMENT,
+and what symbolic execution signals."
   (check-argument 'plan plan (and plan (symbolp plan)) "the name of a plan")
   (check-argument 'constraint constraint (symbolp constraint) "the name of a state constraint")
   (check-argument 'max-paths max-paths (typep max-paths '(integer 1)) "a positive integer")
@@ -219,7 +224,8 @@ symbolic execution signals."
   (check-argument 'compare compare (member compare '(:final :every-step)) ":final or :every-step")
   (check-argument 'on-discrepancy on-discrepancy (member on-discrepancy '(:return :signal))
                   ":return or :signal")
-  (let* ((rule-object (make-confidence-rule (ec:name-keyword rule) :confidence confidence))
+  (let* ((rule-object (apply #'make-confidence-rule (ec:name-keyword rule)
+                             :confidence confidence (and delta (list :delta delta))))
          (plan (ensure-plan plan))
          (domain (ensure-domain domain))
          (parameters (projection:normalized-parameters (domain-scene domain) parameters))

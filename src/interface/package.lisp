@@ -57,7 +57,9 @@
                 #:discrepancy-found #:discrepancy-found-discrepancy
                 #:continue-search #:next-trace #:accept
                 #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
-                #:invalid-confidence #:unknown-confidence-rule #:invalid-argument)
+                #:invalid-argument)
+  (:import-from #:discrepancy-finder.statistics
+                #:invalid-confidence #:invalid-delta #:unknown-confidence-rule)
   (:import-from #:discrepancy-finder.projection
                 #:projection-error #:scene-error #:urdf-error #:unknown-parameter
                 #:impossible-parameter #:unknown-body #:missing-robot-part)
@@ -110,7 +112,7 @@
    #:unknown-argument-type #:file-output-refused #:invalid-trace #:coverage-not-recorded
    #:action-problem
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
-   #:invalid-confidence #:unknown-confidence-rule #:invalid-argument
+   #:invalid-confidence #:invalid-delta #:unknown-confidence-rule #:invalid-argument
    #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat
    ;; the command line
    #:main #:demo #:version))

@@ -27,7 +27,10 @@
      (("domain") :type string :documentation "name of a domain, or its file or folder")
      (("constraint") :type string :documentation "name of the state constraint")
      (("confidence") :type string :documentation "confidence, between 0 and 1 (0.95)")
-     (("rule") :type string :documentation "confidence rule (paper)")
+     (("rule") :type string
+      :documentation "paper, paper-sd, prediction, zero-failure or sound (paper)")
+     (("delta") :type string
+      :documentation "part of the region that may stay discrepant, for the last two rules (0.05)")
      (("seed") :type integer :documentation "seed of the samples (1)")
      (("budget") :type integer :documentation "largest number of simulations (1000)")
      (("set") :type string :list t :optional t
@@ -46,8 +49,10 @@
                               when text append (list key (keyword-argument text)))
                         (loop for key in '(:seed :budget)
                               when (getf options key) append (list key (getf options key)))
-                        (let ((text (getf options :confidence)))
-                          (and text (list :confidence (number-argument text "--confidence"))))))))
+                        (loop for (key name) in '((:confidence "--confidence")
+                                                  (:delta "--delta"))
+                              for text = (getf options key)
+                              when text append (list key (number-argument text name)))))))
     ;; A discrepancy that cannot be saved is still one.
     (when (result-discrepancy result)
       (handler-case (save-discrepancy (result-discrepancy result) (getf options :save))

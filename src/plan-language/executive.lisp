@@ -17,6 +17,11 @@ if that fails, DESIGNATOR-NOT-UNDERSTOOD if EXECUTIVE cannot interpret DESIGNATO
     (declare (ignore executive position))
     (generic-perform designator)))
 
+(defun current-executive ()
+  "Return the executive of the plan that runs, NIL if there is none.  For what resolves designators
+by what the executive knows; a plan has no need to ask."
+  *executive*)
+
 (defgeneric gives-way-p (executive)
   (:documentation "Return true if a task lets others have their turns before and after each PERFORM.
 One that performs in a task of its own is a turn in any case.")

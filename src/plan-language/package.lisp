@@ -19,7 +19,7 @@ perform.")
    #:def-cram-function #:def-top-level-cram-function #:def-plan
    #:plan #:plan-name #:plan-lambda-list #:plan-body #:plan-documentation #:plan-position
    #:plan-top-level-p #:find-plan #:current-plan-name #:plan-source #:plans-in-files
-   #:method-source #:load-plan #:*closure-evaluator* #:ensure-top-level
+   #:method-source #:load-plan #:*closure-evaluator* #:ensure-top-level #:call-in-implicit-top-level
    ;; goals
    #:declare-goal #:def-goal #:succeed #:register-goal #:describe-goal
    ;; top-levels
@@ -96,7 +96,7 @@ perform.")
    ;; executive
    #:perform #:perform-with #:generic-perform #:plan-known-p #:*control-functions*
     #:call-plan-function
-   #:call-with-executive #:with-executive #:choose-strand
+   #:call-with-executive #:with-executive #:current-executive #:choose-strand
    #:begin-turn #:ready-strands #:gives-way-p
    #:strand-number #:strand-task #:strand-evaporating-p #:task-parent #:task-strand #:branch-code
    #:perform-task-p #:all-needed-p

@@ -174,6 +174,6 @@ source is kept for FIND-PLAN.  Calling it outside of a top-level signals NOT-IN-
 
 (defun ensure-top-level (function name)
   "Call FUNCTION in a top-level NAME of its own, unless one runs, and return its values."
-  (if *current-task*
-      (funcall function)
-      (call-in-top-level function name)))
+  (if (outside-of-tasks-p)
+      (call-in-top-level function name)
+      (funcall function)))

@@ -78,12 +78,20 @@
             while strand
             do (stop-strand scheduler strand)))))
 
+(defvar *implicit-task* nil
+  "The task of an implicit top-level while the code that it is around runs, but in no task of that.")
+
+(defun outside-of-tasks-p ()
+  "Return true where a top-level can be made: outside of any, or directly in an implicit one."
+  (or (null *current-task*) (eq *current-task* *implicit-task*)))
+
 (defun call-in-top-level (function &optional name)
   "Call FUNCTION as the body of a new top-level, whose task tree is kept under NAME if it is not
 NIL, and return its values."
-  (when *current-task*
+  (unless (outside-of-tasks-p)
     (error 'nested-top-level))
-  (let* ((scheduler (make-top-level-scheduler))
+  (let* ((*current-task* nil)
+         (scheduler (make-top-level-scheduler))
          (main (scheduler-main scheduler))
          (node (make-root-node name))
          (task (%make-task :name (or name "the top-level") :scheduler scheduler :strand main
@@ -104,6 +112,18 @@ NIL, and return its values."
       (:succeeded (values-list (task-result task)))
       (:failed (error (open-envelope (task-result task))))
       (:evaporated nil))))
+
+(defun call-in-implicit-top-level (function)
+  "Call FUNCTION, which may perform and may also make top-levels, and return its values: in a
+top-level that gives way to those, unless one runs already.  FUNCTION itself is no plan: handlers
+around it see what it signals at once."
+  (if *current-task*
+      (funcall function)
+      (let ((handlers (current-handlers)))
+        (call-in-top-level (lambda ()
+                             (let ((*implicit-task* *current-task*))
+                               (with-handlers (handlers)
+                                 (funcall function))))))))
 
 (defmacro top-level (&body body)
   "Evaluate BODY as a program of its own and return its values.  What it fails with is signaled

@@ -223,7 +223,6 @@
                         ":tilt" "not revolute")
       (scene-problem-of (text :head "(:head \"head_pan_joint\" \"shoulder_joint\")")
                         "\"shoulder_joint\"" "does not turn the camera")
-      (scene-problem-of (text :parameters "(camera-range 3)") "camera-field-of-view")
       (scene-problem-of (text :parameters "(visible-fraction 1.5)") "at most 1.0")
       (scene-problem-of (text :more (format nil "(:item box ~s (:at 0 0 1) (:type 7))"
                                             (root-file "models/table-top/cereal.urdf")))

@@ -57,12 +57,25 @@
     (is (nearly 2 (projection:simulated-seconds projection) 1/100)
         "1 m with 1 m/s^2 up to 1 m/s and down again")))
 
-(test driving-into-a-fixture-stops-the-base
+(test a-goal-in-a-fixture-is-refused
   (projection:with-projection (projection (two-regions-scene))
-    (signals plan:navigation-goal-not-reached
-      (perform-in projection (going-to 0.5 0.4)))
-    (let ((y (geometry:pose-y (projection:observed-pose projection :robot))))
-      (is (< 0.04 y 0.12) "the base is 0.2 m deep and the bench begins at 0.25 m: ~a" y))))
+    (let ((before (projection:observed-pose projection :robot)))
+      (signals plan:navigation-pose-unreachable
+        (perform-in projection (going-to 0.5 0.4)))
+      (is (geometry:pose= before (projection:observed-pose projection :robot)))
+      (is (zerop (projection:simulated-seconds projection))))))
+
+(test driving-into-a-fixture-stops-the-base
+  "The base is 0.2 m deep, the bench begins at 0.25 m, and nothing is touched."
+  (dolist (fidelity '(:fast :full))
+    (projection:with-projection (projection (two-regions-scene) :fidelity fidelity)
+      (multiple-value-bind (reason bodies)
+          (projection::run-base projection '((0.5d0 0d0 0d0) (0.5d0 0.4d0 0d0)))
+        (is (eq :contact reason))
+        (is (search "bench" (bullet:body-name (second bodies)))))
+      (let ((y (geometry:pose-y (projection:observed-pose projection :robot))))
+        (is (< 0.04 y 0.05) "it stops at ~a" y))
+      (is (zerop (projection::fixture-contact projection))))))
 
 (test picking-up-carrying-and-placing
   (projection:with-projection (projection (two-regions-scene))
@@ -193,10 +206,10 @@
     (projection:read-urdf "no/such.urdf"))
   (urdf-problem-of "<robot name=\"r\"><link" "not well-formed XML")
   (urdf-problem-of "<sdf/>" "not <robot>")
-  (urdf-problem-of (urdf-with "") "one tree")
+  (urdf-problem-of (urdf-with "") ":1: " "no link")
   (urdf-problem-of (urdf-with "<link/>") "a link" "no attribute name")
-  (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><mesh filename=\"x\"/>
-                               </geometry></collision></link>") "link a" "<mesh>" "box")
+  (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><capsule radius=\"1\"/>
+                               </geometry></collision></link>") "link a" "<capsule>" "box")
   (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><box size=\"1 2\"/>
                                </geometry></collision></link>") "link a" "3 numbers")
   (urdf-problem-of (urdf-with "<link name=\"a\"><collision><geometry><sphere radius=\"#.1\"/>
@@ -250,5 +263,5 @@
                       ":shoulder" "not revolute")
     (scene-problem-of "(define-scene s (:parameters (reach 0)))" "positive")
     (scene-problem-of "(define-scene s (:parameters (reach 1) (reach 2)))" "same name")
-    (scene-problem-of "(define-scene s (:parameters (reach 1 . 2)))" "positive-number")
+    (scene-problem-of "(define-scene s (:parameters (reach 1 . 2)))" ":1: " "a dot")
     (scene-problem-of "(define-scene s #1=(:parameters . #1#))" "#=")))

@@ -1,4 +1,4 @@
-;;;; The manipulation process module: actions of type picking-up and placing.
+;;;; Picking up and placing by an arm that a carriage lifts on a column.
 ;;;;
 ;;;; The gripper comes from above.  An item within reach of the shoulder is grasped at the middle of
 ;;;; its top by a fixed constraint between gripper and item, lifted, and carried in front of the
@@ -6,6 +6,26 @@
 ;;;; Bullet's business.
 
 (in-package #:discrepancy-finder.projection)
+
+;;; Inverse kinematics of the arm
+
+(defun shoulder-distance (robot pose)
+  "Return the horizontal distance (m) from ROBOT's shoulder to the position of POSE."
+  (planar-distance (svref (update-poses robot) (frame-number robot :shoulder)) pose))
+
+(defun arm-configuration (robot target)
+  "Return lift, shoulder and extension that bring the tip of ROBOT's gripper to the position of
+TARGET, as a list, or NIL if a joint limit forbids it."
+  (let* ((local (compose (inverse (base-pose robot)) target))
+         (tip (compose (inverse (base-pose robot)) (gripper-pose robot)))
+         (configuration (list (+ (joint-position robot :lift) (- (pose-z local) (pose-z tip)))
+                              (atan (pose-y local) (pose-x local))
+                              (sqrt (+ (expt (pose-x local) 2) (expt (pose-y local) 2))))))
+    (and (every (lambda (role position) (within-limits-p (find-joint robot role) position))
+                '(:lift :shoulder :extension) configuration)
+         configuration)))
+
+;;; The gripper
 
 (defparameter *grasp-gap* 1d-3
   "The distance (m) between the gripper's tip and the top of an item that is grasped.")
@@ -77,35 +97,24 @@ there, and take the arm back."
           (move-arm projection high-lift shoulder extension)
           (retract-arm projection high-lift))))))
 
-(defun designated-item (projection designator)
-  "Return the name of the item that the object designator DESIGNATOR means, by :name or :type."
-  (or (first (designated-items projection designator))
-      (plan:fail 'plan:perception-object-not-found
-                 :object designator
-                 :description (format nil "there is no ~(~a~)"
-                                      (or (plan:desig-prop-value designator :name)
-                                          (plan:desig-prop-value designator :type)
-                                          "object")))))
-
-(defmethod execute-designator ((projection projection) (class (eql :action))
-                               (type (eql :picking-up)) designator)
+(defun pick-up-by-column (projection designator)
+  "Pick up the object of DESIGNATOR, an action, with the arm on a column; return the item's name."
   (let* ((name (designated-item projection (plan:desig-prop-value designator :object)))
          (body (cdr (assoc name (projection-items projection))))
          (pose (bullet:body-pose body))
          (what (format nil "the ~(~a~)" name)))
-    (when (projection-grasp projection)
+    (when (held-item projection)
       (plan:fail 'plan:gripper-goal-not-reached
                  :description (format nil "the gripper holds the ~(~a~)" (held-item projection))))
     (check-reach projection pose what)
     (visit projection pose (+ (upper-extent (bullet:body-shape body) pose) *grasp-gap*) what
            (lambda ()
-             (setf (projection-grasp projection)
-                   (cons name (bullet:attach (gripper-body (projection-robot projection))
-                                             body)))))
+             (note-grasp projection :arm name
+                         (bullet:attach (gripper-body (projection-robot projection)) body))))
     name))
 
-(defmethod execute-designator ((projection projection) (class (eql :action))
-                               (type (eql :placing)) designator)
+(defun place-by-column (projection designator)
+  "Place what the arm on a column holds as DESIGNATOR, an action, says; return the item's name."
   (let ((target (plan:designated-pose (plan:desig-prop-value designator :target)))
         (name (held-item projection)))
     (unless target
@@ -120,7 +129,6 @@ there, and take the arm back."
               *release-gap*)
            "the target"
            (lambda ()
-             (bullet:detach (cdr (projection-grasp projection)))
-             (setf (projection-grasp projection) nil)
+             (release-grasp projection :arm)
              (settle projection)))
     name))

@@ -1,4 +1,4 @@
-;;;; The head process module: motions of type looking.
+;;;; The head: pointing the camera at a place.  Motions of type looking are in looking.lisp.
 ;;;;
 ;;;; A head is two joints, pan and tilt, that turn a camera, in either order and about any axes.
 ;;;; HEAD-ANGLES turns one after the other, again and again, until the camera's axis meets the
@@ -144,15 +144,3 @@ forbids it."
                                         (urdf-joint-name
                                          (find-joint (projection-robot projection) role))
                                         position))))))
-
-(defmethod execute-designator ((projection projection) (class (eql :motion)) (type (eql :looking))
-                               designator)
-  (check-robot-part projection :head :pan)
-  (let* ((place (or (plan:desig-prop-value designator :pose)
-                    (plan:desig-prop-value designator :target)))
-         (target (plan:designated-pose place)))
-    (cond (target (look-at projection target place))
-          ((eq (plan:desig-prop-value designator :direction) :forward) (look-forward projection))
-          (t (misunderstood designator "a motion of type looking needs a pose, a target with a ~
-                                        pose, or the direction forward")))
-    (camera-pose (projection-robot projection))))

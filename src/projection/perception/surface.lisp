@@ -57,29 +57,68 @@ the area in m^2, the function one of two numbers from 0 to 1 that returns a pose
     (:box (apply #'box-patches (rest shape)))
     (:cylinder (apply #'cylinder-patches (rest shape)))
     (:sphere (apply #'sphere-patches (rest shape)))
+    (:hull (apply #'hull-patches (rest shape)))
     (:compound (compound-patches (rest shape)))))
 
-(defun inside-shape-p (shape point)
-  "Return true if the position of the pose POINT is inside of SHAPE by more than a micrometre."
-  (let ((x (abs (pose-x point))) (y (abs (pose-y point))) (z (abs (pose-z point))) (gap 1d-6))
+;;; What is inside of another part of a compound
+
+(defun inside-test (shape)
+  "Return a function that returns true for a pose if its position is inside of SHAPE by more than a
+micrometre."
+  (let ((gap 1d-6))
     (ecase (first shape)
-      (:box (every (lambda (coordinate size) (< coordinate (- (/ size 2) gap)))
-                   (list x y z) (rest shape)))
-      (:sphere (< (sqrt (+ (* x x) (* y y) (* z z))) (- (second shape) gap)))
-      (:cylinder (and (< (sqrt (+ (* x x) (* y y))) (- (second shape) gap))
-                      (< z (- (/ (third shape) 2) gap))))
-      (:compound (loop for (pose part) in (rest shape)
-                         thereis (inside-shape-p part (compose (inverse pose) point)))))))
+      (:box (lambda (point)
+              (every (lambda (coordinate size) (< (abs coordinate) (- (/ size 2) gap)))
+                     (list (pose-x point) (pose-y point) (pose-z point)) (rest shape))))
+      (:sphere (lambda (point)
+                 (let ((x (pose-x point)) (y (pose-y point)) (z (pose-z point)))
+                   (< (sqrt (+ (* x x) (* y y) (* z z))) (- (second shape) gap)))))
+      (:cylinder (lambda (point)
+                   (let ((x (pose-x point)) (y (pose-y point)))
+                     (and (< (sqrt (+ (* x x) (* y y))) (- (second shape) gap))
+                          (< (abs (pose-z point)) (- (/ (third shape) 2) gap))))))
+      (:hull (let ((faces (hull-faces (rest shape))))
+               (lambda (point)
+                 (beneath-faces-p faces (pose-x point) (pose-y point) (pose-z point) gap))))
+      (:compound (let ((tests (loop for (pose part) in (rest shape)
+                                    collect (cons (inverse pose) (inside-test part)))))
+                   (lambda (point)
+                     (loop for (outside . test) in tests
+                             thereis (funcall test (compose outside point)))))))))
 
 (defun surface-points (shape count)
   "Return about COUNT points, poses in the frame of SHAPE, spread evenly over its surface; always
 the same ones.  Where parts of a compound overlap what is inside of another part is left out."
   (let* ((patches (shape-patches shape))
          (area (reduce #'+ patches :key #'car)))
-    (remove-if (lambda (point) (inside-shape-p shape point))
+    (remove-if (inside-test shape)
                (loop for (patch-area . point) in patches
                      for number = (max 1 (round (* count (/ patch-area area))))
                      append (loop for i below number
                                   for u = (/ (+ i 1/2) number 1d0)
                                   for v = (nth-value 1 (floor (* (+ i 1/2) *golden-ratio*)))
                                   collect (funcall point u v))))))
+
+;;; The points of a shape are computed once.  A shape is the same list in all worlds of a scene.
+
+(defparameter *points-on-a-surface* 240
+  "An item is looked at in about so many points.")
+
+(defvar *surfaces* (make-hash-table :test 'eq :weakness :key :synchronized t)
+  "The vector of the surface points of each shape that was looked at.")
+
+(defun interleaved (points)
+  "Return the list POINTS in another order, in which those of any stretch are spread over the whole
+surface: every 16th, and the rest in turn."
+  (loop for start below 16
+        append (loop for rest = (nthcdr start points) then (nthcdr 16 rest)
+                     while rest collect (first rest))))
+
+(defun surface-vector (shape)
+  "Return the points of SHAPE's surface, in its frame, as a vector of coordinates (m): x, y, z of
+the first, and so on."
+  (or (gethash shape *surfaces*)
+      (setf (gethash shape *surfaces*)
+            (coerce (loop for point in (interleaved (surface-points shape *points-on-a-surface*))
+                          append (list (pose-x point) (pose-y point) (pose-z point)))
+                    '(simple-array double-float (*))))))

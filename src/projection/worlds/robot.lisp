@@ -1,171 +1,164 @@
 ;;;; The robot: a planar base with a tree of links, posed by forward kinematics.
 ;;;;
-;;;; A ROBOT holds the pose of its base and the positions of its joints.  Its links are kinematic
-;;;; bodies; UPDATE-LINKS moves them to where forward kinematics puts them.
-;;;; The arm is a carriage that lifts a shoulder that turns a telescopic arm, so that inverse
-;;;; kinematics is in closed form: ARM-CONFIGURATION.
+;;;; A ROBOT holds the pose of its base and the positions of its joints, one for each link; its links
+;;;; are kinematic bodies, which a mechanism of the Bullet layer moves.  Links have numbers, parents
+;;;; first: FRAME-NUMBER finds them by the name of the link or of the joint that moves it, or by a
+;;;; role that the scene gives.
 
 (in-package #:discrepancy-finder.projection)
 
-(defstruct (link-frame (:copier nil))
-  "A link of a robot: JOINT connects it to the link with the number PARENT (both NIL for the root),
-BODY is its body in the world, NIL if it has no shape."
-  (link nil :type urdf-link :read-only t)
-  (joint nil :type (or null urdf-joint) :read-only t)
-  (parent nil :type (or null fixnum) :read-only t)
-  (body nil))
-
 (defclass robot ()
   ((part :initarg :part :reader robot-part :type scene-part)
-   (base-pose :initarg :base-pose :accessor base-pose :type pose)
-   (frames :reader robot-frames :type simple-vector
-           :documentation "The link frames, parents first.")
-   (positions :reader joint-positions :type (simple-array double-float (*))
-              :documentation "For each frame the position (m or rad) of its joint.")
-   (poses :reader link-poses :type simple-vector
-          :documentation "For each frame its pose in the world, by the last UPDATE-POSES."))
+   (blueprint :initarg :blueprint :reader robot-blueprint :type blueprint)
+   (base-pose :initarg :base-pose :accessor base-pose :type pose
+              :documentation "The pose of the root link.")
+   (standing-height :initarg :standing-height :reader standing-height :type double-float
+                    :documentation "The height (m) of the root link on level ground.")
+   (positions :initarg :positions :accessor joint-positions
+              :type (simple-array double-float (*))
+              :documentation "For each link the position (m or rad) of its joint.")
+   (bodies :initarg :bodies :reader robot-bodies :type simple-vector
+           :documentation "For each link its body in the world, or NIL.")
+   (mechanism :initarg :mechanism :reader robot-mechanism
+              :documentation "The mechanism of the Bullet layer."))
   (:documentation "The robot of a projection."))
 
-(defun make-frames (model)
-  (let ((frames '()) (names '()))
-    (flet ((add (name joint)
-             (push (make-link-frame :link (find name (urdf-model-links model)
-                                                :key #'urdf-link-name :test #'string=)
-                                    :joint joint
-                                    :parent (and joint (position (urdf-joint-parent joint)
-                                                                 (reverse names) :test #'string=)))
-                   frames)
-             (push name names)))
-      (add (urdf-model-root model) nil)
-      (dolist (joint (urdf-model-joints model))
-        (add (urdf-joint-child joint) joint)))
-    (coerce (nreverse frames) 'simple-vector)))
+(defmethod print-object ((robot robot) stream)
+  (print-unreadable-object (robot stream :type t)
+    (format stream "~(~a~) at ~a" (scene-part-name (robot-part robot)) (base-pose robot))))
 
-(defun initial-position (joint)
-  "Return the position of JOINT that is nearest to 0 within its limits."
-  (if joint
-      (max (or (urdf-joint-lower joint) 0d0) (min 0d0 (or (urdf-joint-upper joint) 0d0)))
-      0d0))
+(defun robot-frames (robot)
+  "Return the vector of the link frames of ROBOT, parents first."
+  (blueprint-frames (robot-blueprint robot)))
 
-(defmethod initialize-instance :after ((robot robot) &key)
-  (with-slots (frames positions poses) robot
-    (setf frames (make-frames (scene-part-model (robot-part robot)))
-          positions (map '(simple-array double-float (*))
-                         (lambda (frame) (initial-position (link-frame-joint frame)))
-                         frames)
-          poses (make-array (length frames)))
-    (update-poses robot)))
+;;; Links and joints
+
+(defun role-name (robot role)
+  "Return the name of the joint or link that has ROLE, a keyword, in ROBOT, or NIL."
+  (getf (scene-part-roles (robot-part robot)) role))
+
+(defun named-frame-number (robot name)
+  "Return the number of the link of ROBOT that has the NAME, a string, or whose joint has; or NIL."
+  (values (gethash name (blueprint-numbers (robot-blueprint robot)))))
+
+(defun frame-number (robot role-or-name)
+  "Return the number of the link of ROBOT that is ROLE-OR-NAME, or whose joint is: a role (a keyword
+such as :LIFT, :TORSO, :PAN or :CAMERA) or the name of a link or joint (a string).  NIL if there is
+none."
+  (let ((name (if (stringp role-or-name) role-or-name (role-name robot role-or-name))))
+    (and name (named-frame-number robot name))))
+
+(defun find-joint (robot role-or-name)
+  "Return the joint that FRAME-NUMBER finds for ROLE-OR-NAME in ROBOT."
+  (link-frame-joint (svref (robot-frames robot) (frame-number robot role-or-name))))
+
+(defun joint-position (robot role-or-name)
+  "Return the position (m or rad) of the joint that is ROLE-OR-NAME in ROBOT."
+  (aref (joint-positions robot) (frame-number robot role-or-name)))
+
+(defun robot-arm (robot name)
+  "Return the ARM-ROLES of the arm NAME, a symbol, of ROBOT, or NIL."
+  (part-arm (robot-part robot) name))
+
+(defun robot-arm-names (robot)
+  "Return the names (keywords) of the arms of ROBOT that the scene names."
+  (mapcar #'arm-roles-name (scene-part-arms (robot-part robot))))
 
 ;;; Forward kinematics
 
-(defun joint-motion (joint position)
-  "Return the pose of JOINT's child in its origin frame at POSITION."
-  (declare (double-float position))
-  (destructuring-bind (ax ay az) (urdf-joint-axis joint)
-    (declare (double-float ax ay az))
-    (ecase (urdf-joint-type joint)
-      (:prismatic (quaternion-pose (* ax position) (* ay position) (* az position)
-                                   0d0 0d0 0d0 1d0))
-      ((:revolute :continuous)
-       (let ((sine (sin (/ position 2))))
-         (quaternion-pose 0d0 0d0 0d0 (* ax sine) (* ay sine) (* az sine)
-                          (cos (/ position 2))))))))
+(defun numbered-link-pose (robot number)
+  "Return the pose in the world of the link NUMBER of ROBOT, where base and joints have it now."
+  (bullet:forward-kinematics (robot-mechanism robot) (base-pose robot) (joint-positions robot)
+                             number))
+
+(defun robot-link-pose (robot role-or-name)
+  "Return the pose in the world of the link that FRAME-NUMBER finds in ROBOT."
+  (numbered-link-pose robot (frame-number robot role-or-name)))
 
 (defun update-poses (robot)
-  "Compute the poses of all links of ROBOT from its base pose and joint positions; return them."
-  (let ((poses (link-poses robot)) (positions (joint-positions robot)))
-    (declare (simple-vector poses) (type (simple-array double-float (*)) positions))
-    (loop for frame across (the simple-vector (robot-frames robot))
-          for index of-type fixnum from 0
-          for joint = (link-frame-joint frame)
-          do (setf (svref poses index)
-                   (if joint
-                       (let ((origin (compose (svref poses (link-frame-parent frame))
-                                              (urdf-joint-origin joint))))
-                         (if (eq (urdf-joint-type joint) :fixed)
-                             origin
-                             (compose origin (joint-motion joint (aref positions index)))))
-                       (base-pose robot))))
-    poses))
-
-(defun frame-number (robot role)
-  "Return the number of the frame whose link, or whose joint, has ROLE in ROBOT."
-  (let ((name (getf (scene-part-roles (robot-part robot)) role)))
-    (position-if (lambda (frame)
-                   (or (string= name (urdf-link-name (link-frame-link frame)))
-                       (and (link-frame-joint frame)
-                            (string= name (urdf-joint-name (link-frame-joint frame))))))
-                 (robot-frames robot))))
-
-(defun find-joint (robot role)
-  "Return the joint that has ROLE (:lift, :shoulder, :extension, :pan or :tilt) in ROBOT."
-  (link-frame-joint (svref (robot-frames robot) (frame-number robot role))))
-
-(defun joint-position (robot role)
-  "Return the position (m or rad) of the joint with ROLE in ROBOT."
-  (aref (joint-positions robot) (frame-number robot role)))
+  "Return the vector of the poses of all links of ROBOT from its base pose and joint positions."
+  (let ((poses (make-array (length (robot-frames robot)))))
+    (dotimes (number (length poses) poses)
+      (setf (svref poses number) (numbered-link-pose robot number)))))
 
 (defun gripper-pose (robot)
   "Return the pose of the tip of ROBOT's gripper."
-  (svref (update-poses robot) (frame-number robot :gripper)))
+  (robot-link-pose robot :gripper))
 
 (defun camera-pose (robot)
   "Return the pose of ROBOT's camera, which looks along its x axis."
-  (svref (update-poses robot) (frame-number robot :camera)))
+  (robot-link-pose robot :camera))
 
 ;;; Bodies
 
-(defun add-links (robot world kind)
-  "Add the links of ROBOT, or of another model, to WORLD as bodies of KIND, with their own masses if
-that is :DYNAMIC.  Return the bodies."
-  (loop for frame across (robot-frames robot)
-        for pose across (update-poses robot)
-        for link = (link-frame-link frame)
-        when (urdf-link-shape link)
-          collect (setf (link-frame-body frame)
-                        (bullet:add-body world
-                                         (format nil "~(~a~)/~a"
-                                                 (scene-part-name (robot-part robot))
-                                                 (urdf-link-name link))
-                                         (urdf-link-shape link) pose
-                                         :kind kind
-                                         :mass (if (eq kind :dynamic) (urdf-link-mass link) 0d0)))))
-
 (defun link-bodies (robot)
   "Return the bodies of ROBOT's links."
-  (loop for frame across (robot-frames robot)
-        when (link-frame-body frame) collect it))
+  (remove nil (coerce (robot-bodies robot) 'list)))
 
-(defun update-links (robot)
-  "Move the bodies of ROBOT's links to their poses; Bullet derives their velocities."
-  (let ((poses (update-poses robot)))
-    (declare (simple-vector poses))
-    (loop for frame across (the simple-vector (robot-frames robot))
-          for index of-type fixnum from 0
-          for body = (link-frame-body frame)
-          when body do (bullet:move-body body (svref poses index)))))
+(defun robot-link-body (robot role-or-name)
+  "Return the body of the link that FRAME-NUMBER finds in ROBOT, or NIL if it has none."
+  (let ((number (frame-number robot role-or-name)))
+    (and number (svref (robot-bodies robot) number))))
 
 (defun gripper-body (robot)
-  (link-frame-body (svref (robot-frames robot) (frame-number robot :gripper))))
+  (robot-link-body robot :gripper))
 
-;;; Inverse kinematics of the arm
+(defun link-below-p (robot number ancestor)
+  "Return true if the link NUMBER of ROBOT is the link ANCESTOR or hangs on it."
+  (loop for candidate = number then (link-frame-parent (svref (robot-frames robot) candidate))
+        while candidate
+          thereis (= candidate ancestor)))
 
-(defun shoulder-distance (robot pose)
-  "Return the horizontal distance (m) from ROBOT's shoulder to the position of POSE."
-  (planar-distance (svref (update-poses robot) (frame-number robot :shoulder)) pose))
+(defun hand-bodies (robot arm)
+  "Return the bodies of the hand of ARM, the name of an arm of ROBOT: of the child of the arm's last
+joint and all that hangs on it."
+  (let ((wrist (frame-number robot (first (last (arm-roles-joints (robot-arm robot arm)))))))
+    (loop for body across (robot-bodies robot)
+          for number from 0
+          when (and body (link-below-p robot number wrist))
+            collect body)))
 
-(defun within-limits-p (joint position)
-  (and (<= (or (urdf-joint-lower joint) position) position)
-       (<= position (or (urdf-joint-upper joint) position))))
+;;; Making
 
-(defun arm-configuration (robot target)
-  "Return lift, shoulder and extension that bring the tip of ROBOT's gripper to the position of
-TARGET, as a list, or NIL if a joint limit forbids it."
-  (let* ((local (compose (inverse (base-pose robot)) target))
-         (tip (compose (inverse (base-pose robot)) (gripper-pose robot)))
-         (configuration (list (+ (joint-position robot :lift) (- (pose-z local) (pose-z tip)))
-                              (atan (pose-y local) (pose-x local))
-                              (sqrt (+ (expt (pose-x local) 2) (expt (pose-y local) 2))))))
-    (and (every (lambda (role position) (within-limits-p (find-joint robot role) position))
-                '(:lift :shoulder :extension) configuration)
-         configuration)))
+(defun link-specs (frames numbers bodies)
+  "Return the vector of what BULLET:MAKE-MECHANISM wants to know of the links FRAMES with BODIES."
+  (map 'simple-vector
+       (lambda (frame body)
+         (let ((joint (link-frame-joint frame))
+               (name (urdf-link-name (link-frame-link frame))))
+           (if joint
+               (bullet:link-spec name (link-frame-parent frame) (urdf-joint-type joint)
+                                 (urdf-joint-origin joint) (urdf-joint-axis joint)
+                                 (urdf-joint-lower joint) (urdf-joint-upper joint)
+                                 (let ((mimic (urdf-joint-mimic joint)))
+                                   (and mimic
+                                        (cons (gethash (first mimic) numbers) (rest mimic))))
+                                 body)
+               (bullet:link-spec name nil :fixed (identity-pose) '(1d0 0d0 0d0) nil nil nil
+                                 body))))
+       frames bodies))
+
+(defun add-robot (scene part world base-pose)
+  "Add PART, the robot of SCENE, to WORLD with its base at BASE-POSE and return the ROBOT."
+  (let* ((blueprint (part-blueprint part))
+         (frames (blueprint-frames blueprint))
+         (surface (part-surface scene part))
+         (bodies (map 'simple-vector
+                      (lambda (frame)
+                        (let ((shape (urdf-link-shape (link-frame-link frame))))
+                          (and shape
+                               (apply #'bullet:add-body world (link-frame-name frame) shape
+                                      (compose base-pose (link-frame-rest frame))
+                                      :kind :kinematic surface))))
+                      frames))
+         (mechanism (bullet:make-mechanism
+                     world (link-specs frames (blueprint-numbers blueprint) bodies))))
+    (make-instance 'robot :part part :blueprint blueprint :base-pose base-pose
+                          :standing-height (pose-z base-pose)
+                          :positions (copy-seq (blueprint-positions blueprint))
+                          :bodies bodies :mechanism mechanism)))
+
+(defun teleport-robot (robot)
+  "Put the bodies of ROBOT's links, and what they hold, to where base and joints have them, at rest."
+  (bullet:pose-mechanism (robot-mechanism robot) (base-pose robot) (joint-positions robot)
+                         :teleport t))

@@ -13,7 +13,7 @@
   (map '(simple-array double-float (*)) (lambda (x) (float x 1d0)) numbers))
 
 (defun fit-rows (rows response)
-  (discrepancy::least-squares (double-matrix rows) (double-vector response)))
+  (statistics::least-squares (double-matrix rows) (double-vector response)))
 
 (defun close-to-p (numbers expected tolerance)
   (and (= (length numbers) (length expected))
@@ -46,9 +46,9 @@
 
 (test least-squares-example-3-of-the-paper
   (let ((fit (fit-rows '((0.5d0 1.3d0) (0.9d0 1.7d0)) '(0.6d0 0.8d0))))
-    (is (close-to-p (discrepancy::fit-coefficients fit) '(0.0625d0 0.4375d0) 1d-15))
-    (is (= 0 (discrepancy::fit-residual-sum fit)))
-    (is (= 2 (discrepancy::fit-rank fit) (discrepancy::fit-columns fit)))))
+    (is (close-to-p (statistics::fit-coefficients fit) '(0.0625d0 0.4375d0) 1d-15))
+    (is (= 0 (statistics::fit-residual-sum fit)))
+    (is (= 2 (statistics::fit-rank fit) (statistics::fit-columns fit)))))
 
 (test least-squares-agrees-with-exact-arithmetic
   (let ((state (sb-ext:seed-random-state 4)))
@@ -61,9 +61,9 @@
           for response = (loop repeat count collect (rational (random 3d0 state)))
           for fit = (fit-rows rows response)
           do (multiple-value-bind (b residual-sum) (exact-least-squares rows response)
-               (unless (and (close-to-p (discrepancy::fit-coefficients fit) b
+               (unless (and (close-to-p (statistics::fit-coefficients fit) b
                                         (* 1d-9 (reduce #'max (mapcar #'abs b))))
-                            (< (relative-error (discrepancy::fit-residual-sum fit) residual-sum)
+                            (< (relative-error (statistics::fit-residual-sum fit) residual-sum)
                                1d-9))
                  (fail "~s ~s" rows response)))
           finally (pass))))
@@ -80,17 +80,17 @@
          (fit (fit-rows rows response)))
     (multiple-value-bind (b residual-sum) (exact-least-squares rows response)
       (is (> (reduce #'max (mapcar #'abs b)) 1e5))
-      (is (close-to-p (discrepancy::fit-coefficients fit) b
+      (is (close-to-p (statistics::fit-coefficients fit) b
                       (* 1d-8 (reduce #'max (mapcar #'abs b)))))
-      (is (< (relative-error (discrepancy::fit-residual-sum fit) residual-sum) 1d-8)))))
+      (is (< (relative-error (statistics::fit-residual-sum fit) residual-sum) 1d-8)))))
 
 (test least-squares-rank
   (flet ((check (rank columns rows)
            (let ((fit (fit-rows rows (loop for row in rows for i from 1 collect i))))
-             (is (= rank (discrepancy::fit-rank fit)))
-             (is (= columns (discrepancy::fit-columns fit)))
-             (is (eq (= rank columns) (and (discrepancy::fit-coefficients fit) t)))
-             (is (eq (= rank columns) (and (discrepancy::fit-residual-sum fit) t))))))
+             (is (= rank (statistics::fit-rank fit)))
+             (is (= columns (statistics::fit-columns fit)))
+             (is (eq (= rank columns) (and (statistics::fit-coefficients fit) t)))
+             (is (eq (= rank columns) (and (statistics::fit-residual-sum fit) t))))))
     ;; the second column is a multiple of the first; the third the sum of the others, rounded
     (check 1 2 '((1 2) (2 4) (3 6)))
     (check 2 3 '((0.1d0 0.7d0 0.8d0) (0.2d0 0.1d0 0.3d0) (0.3d0 0.5d0 0.8d0) (0.7d0 0.1d0 0.8d0)))
@@ -107,25 +107,25 @@
 (test least-squares-constant-columns
   ;; one: an ordinary column
   (let ((fit (fit-rows '((1 2) (2 2) (3 2) (5 2)) '(4 5 6 8))))
-    (is (close-to-p (discrepancy::fit-coefficients fit) '(1 3/2) 1d-13))
-    (is (< (discrepancy::fit-residual-sum fit) 1d-24)))
+    (is (close-to-p (statistics::fit-coefficients fit) '(1 3/2) 1d-13))
+    (is (< (statistics::fit-residual-sum fit) 1d-24)))
   ;; a negative one
-  (is (close-to-p (discrepancy::fit-coefficients (fit-rows '((1 -2) (2 -2) (3 -2)) '(4 5 6)))
+  (is (close-to-p (statistics::fit-coefficients (fit-rows '((1 -2) (2 -2) (3 -2)) '(4 5 6)))
                   '(1 -3/2) 1d-13))
   ;; two, of 3 and 4: together the intercept 5, shared out in proportion to 3 and 4
   (let ((fit (fit-rows '((3 1 4) (3 2 4) (3 4 4)) '(6 7 9))))
-    (is (= 2 (discrepancy::fit-columns fit) (discrepancy::fit-rank fit)))
-    (is (close-to-p (discrepancy::fit-coefficients fit) '(3/5 1 4/5) 1d-13)))
+    (is (= 2 (statistics::fit-columns fit) (statistics::fit-rank fit)))
+    (is (close-to-p (statistics::fit-coefficients fit) '(3/5 1 4/5) 1d-13)))
   ;; zeros: they explain nothing
   (let ((fit (fit-rows '((0 1) (0 2)) '(2 4))))
-    (is (= 1 (discrepancy::fit-columns fit)))
-    (is (close-to-p (discrepancy::fit-coefficients fit) '(0 2) 1d-13)))
+    (is (= 1 (statistics::fit-columns fit)))
+    (is (close-to-p (statistics::fit-coefficients fit) '(0 2) 1d-13)))
   (let ((fit (fit-rows '((0) (0)) '(3 4))))
-    (is (equalp #(0d0) (discrepancy::fit-coefficients fit)))
-    (is (= 25 (discrepancy::fit-residual-sum fit)))))
+    (is (equalp #(0d0) (statistics::fit-coefficients fit)))
+    (is (= 25 (statistics::fit-residual-sum fit)))))
 
 (test least-squares-leaves-its-arguments
   (let ((design (double-matrix '((1 2) (2 1) (3 3)))) (response (double-vector '(1 2 3))))
-    (discrepancy::least-squares design response)
+    (statistics::least-squares design response)
     (is (equalp design (double-matrix '((1 2) (2 1) (3 3)))))
     (is (equalp response (double-vector '(1 2 3))))))

@@ -15,7 +15,7 @@
 ;;;; gets its ordinary coefficient, and columns of zeros get the coefficient 0.  One row makes no
 ;;;; column constant, since it cannot show that something does not vary.
 
-(in-package #:discrepancy-finder.discrepancy)
+(in-package #:discrepancy-finder.statistics)
 
 (defstruct (fit (:constructor make-fit (coefficients residual-sum rank columns)) (:copier nil))
   "The result of LEAST-SQUARES."
@@ -158,6 +158,16 @@ largest one."
                    (/ (- (aref matrix row columns) rest) (aref diagonal row))))
     solution))
 
+(defun solve (matrix)
+  "Return the solution of the augmented MATRIX, which is overwritten, its rank, and the residual sum
+of squares; the solution and the sum are NIL if the rank is too small."
+  (multiple-value-bind (rank order diagonal) (factorize matrix)
+    (let ((columns (1- (array-dimension matrix 1))))
+      (if (< rank columns)
+          (values nil rank nil)
+          (values (back-substitute matrix order diagonal) rank
+                  (column-product matrix columns columns columns))))))
+
 (defun least-squares (design response)
   "Return the FIT of the coefficients b that minimize (y - Xb)'(y - Xb), without an intercept, for
 the two-dimensional array DESIGN = X with a row for each observation and the vector RESPONSE = y;
@@ -168,9 +178,6 @@ are linearly dependent, or more than the rows, the FIT has no coefficients, but 
          (norm (merged-norm design constant))
          (matrix (augment design response kept norm))
          (columns (1- (array-dimension matrix 1))))
-    (multiple-value-bind (rank order diagonal) (factorize matrix)
-      (if (< rank columns)
-          (make-fit nil nil rank columns)
-          (make-fit (share-out (back-substitute matrix order diagonal) design constant kept norm)
-                    (column-product matrix columns columns columns)
-                    rank columns)))))
+    (multiple-value-bind (solution rank residual-sum) (solve matrix)
+      (make-fit (and solution (share-out solution design constant kept norm))
+                residual-sum rank columns))))

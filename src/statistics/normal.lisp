@@ -12,7 +12,7 @@
 ;;;; positive x, so Newton's method on them, started on the proper side, never steps over the root:
 ;;;; it has converged when it stops moving.
 
-(in-package #:discrepancy-finder.discrepancy)
+(in-package #:discrepancy-finder.statistics)
 
 (defconstant +centre+ 1.5d0
   "Where the two expansions meet.")

@@ -6,17 +6,20 @@
 ;;;; ones must lie so that the theory allows them.  A *rule* is an object that carries the
 ;;;; confidence asked for; its *verdict* is :CONFIDENT or :CONTINUE, and says why.
 ;;;;
-;;;; CONFIDENCE-VERDICT is the entry point.  A new rule is a class, a method on CONFIDENCE-VERDICT
-;;;; and a call of REGISTER-CONFIDENCE-RULE.
+;;;; CONFIDENCE-VERDICT is the entry point; a search that adds one sample after the other keeps them
+;;;; as EVIDENCE and asks EVIDENCE-VERDICT.  A new rule is a class, a method on one of the two and a
+;;;; call of REGISTER-CONFIDENCE-RULE.
 
-(in-package #:discrepancy-finder.discrepancy)
+(in-package #:discrepancy-finder.statistics)
 
-(defstruct (parameter-sample (:constructor make-parameter-sample (initial final)) (:copier nil))
+(defstruct (parameter-sample (:constructor make-parameter-sample (initial final &key (blind-p t)))
+                             (:copier nil))
   "The continuous initial and final parameters of one projection, vectors of double floats in SI
 units.  Parameters that are the same by construction in all samples are left out; discrete ones,
-too."
+too.  BLIND-P is false if earlier samples had a say in where it was drawn."
   (initial #() :type vector :read-only t)
-  (final #() :type vector :read-only t))
+  (final #() :type vector :read-only t)
+  (blind-p t :type boolean :read-only t))
 
 (defmethod print-object ((sample parameter-sample) stream)
   (print-unreadable-object (sample stream :type t)
@@ -52,11 +55,14 @@ too."
   (z nil :type (or null double-float) :read-only t))
 
 (setf (documentation 'make-parameter-sample 'function)
-      "Return the parameter sample with the vectors INITIAL and FINAL of double floats (SI units)."
+      "Return the parameter sample with the vectors INITIAL and FINAL of double floats (SI units).
+BLIND-P is false if earlier samples had a say in where it was drawn."
       (documentation 'parameter-sample-initial 'function)
       "Return the vector of the initial parameters that were drawn for a sample."
       (documentation 'parameter-sample-final 'function)
       "Return the vector of the final parameters that were observed in a sample."
+      (documentation 'parameter-sample-blind-p 'function)
+      "Return true if a sample was drawn without regard to earlier ones."
       (documentation 'make-parameter-region 'function)
       "Return the region with the vectors INITIAL-BOUNDS and FINAL-BOUNDS of conses (MIN . MAX)."
       (documentation 'parameter-region-initial-bounds 'function)
@@ -106,7 +112,23 @@ NIL if the samples do not suffice to predict."
 (defgeneric confidence-verdict (rule samples region)
   (:documentation "Return the VERDICT of the confidence RULE on SAMPLES, a sequence of
 PARAMETER-SAMPLEs in the order of their indices, none of them a discrepancy, that were drawn from
-the PARAMETER-REGION REGION."))
+the PARAMETER-REGION REGION.")
+  (:method (rule samples region)
+    (let ((evidence (make-evidence region)))
+      (map nil (lambda (sample) (add-sample evidence sample)) samples)
+      (evidence-verdict rule evidence))))
+
+(defgeneric evidence-verdict (rule evidence)
+  (:documentation "Return the VERDICT of the confidence RULE on the samples in EVIDENCE, as
+CONFIDENCE-VERDICT, at a cost that does not depend on how many there are."))
+
+(defgeneric rule-for-trace (rule number)
+  (:documentation "Return the rule that stands for RULE in the trace with NUMBER (from 1) of a
+search.  Rules with a guarantee spend alpha/(NUMBER (NUMBER + 1)) on it, so that the guarantee holds
+for all traces jointly; others stay what they are.")
+  (:method (rule number)
+    (declare (ignore number))
+    rule))
 
 (defvar *confidence-rules* '()
   "Association list from keywords to the names of subclasses of CONFIDENCE-RULE.")
@@ -118,10 +140,10 @@ the PARAMETER-REGION REGION."))
 
 (defun make-confidence-rule (name &rest arguments &key &allow-other-keys)
   "Return a new confidence rule of the kind that the keyword NAME stands for, such as :PAPER.
-ARGUMENTS are those of the rule's class; all rules take :CONFIDENCE, a real number in ]0, 1[ that
-defaults to 0.95.  Signal UNKNOWN-CONFIDENCE-RULE or INVALID-CONFIDENCE."
+ARGUMENTS are those of the rule's class, which passes over others; all rules take :CONFIDENCE, a
+real number in ]0, 1[ that defaults to 0.95.  Signal UNKNOWN-CONFIDENCE-RULE or INVALID-CONFIDENCE."
   (let ((entry (assoc name *confidence-rules*)))
     (unless entry
       (error 'unknown-confidence-rule
              :name name :known (sort (mapcar #'car *confidence-rules*) #'string<)))
-    (apply #'make-instance (cdr entry) arguments)))
+    (apply #'make-instance (cdr entry) :allow-other-keys t arguments)))

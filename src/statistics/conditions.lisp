@@ -1,4 +1,9 @@
-(in-package #:discrepancy-finder.discrepancy)
+(in-package #:discrepancy-finder.statistics)
+
+(defun number-text (number)
+  "Return the shortest decimal text of the real NUMBER, a string."
+  (let ((*read-default-float-format* 'double-float))
+    (princ-to-string (if (integerp number) number (decimal-double number)))))
 
 (define-condition invalid-confidence (error)
   ((value :initarg :value :reader invalid-confidence-value
@@ -20,3 +25,14 @@ number between 0 and 1."))
                      (unknown-confidence-rule-name condition)
                      (unknown-confidence-rule-known condition))))
   (:documentation "Signaled when a confidence rule is sought by a name that no rule has."))
+
+(define-condition invalid-delta (error)
+  ((value :initarg :value :reader invalid-delta-value
+          :documentation "The object that was given as a part of the region."))
+  (:report (lambda (condition stream)
+             (format stream "A part of the initial region lies between 0 and 1, both excluded, ~
+                             which ~a does not."
+                     (let ((value (invalid-delta-value condition)))
+                       (if (realp value) (number-text value) value)))))
+  (:documentation "Signaled when a confidence rule is made with a delta that is not a real number
+between 0 and 1."))

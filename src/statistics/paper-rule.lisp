@@ -22,7 +22,7 @@
 ;;;; final parameters there is no interval to check: the rule is confident as soon as it has the
 ;;;; samples that a regression would need.
 
-(in-package #:discrepancy-finder.discrepancy)
+(in-package #:discrepancy-finder.statistics)
 
 (defclass paper-rule (confidence-rule)
   ()
@@ -56,22 +56,6 @@ is inside."
   (two-sided-z (min (expt confidence (/ 1d0 count))
                     (- 1 double-float-negative-epsilon))))
 
-(defun design-matrix (samples columns)
-  (let ((design (make-array (list (length samples) columns) :element-type 'double-float)))
-    (loop for sample in samples
-          for row from 0
-          do (dotimes (column columns)
-               (setf (aref design row column) (aref (parameter-sample-initial sample) column))))
-    design))
-
-(defun final-values (samples index)
-  (map '(simple-array double-float (*))
-       (lambda (sample) (aref (parameter-sample-final sample) index))
-       samples))
-
-(defun observed-interval (values)
-  (cons (reduce #'min values) (reduce #'max values)))
-
 (defun not-yet (count control &rest arguments)
   (make-verdict :continue (format nil "not yet: ~?" control arguments) :count count))
 
@@ -92,40 +76,63 @@ parameters with ALL-BOUNDS; DETAILS are the other arguments of MAKE-VERDICT."
                                             inside its bounds" count)
                                :count count :intervals intervals details))))
 
-(defun judge-fits (fits confidence region count)
-  "Return the verdict after COUNT samples, given a FIT with coefficients for each final parameter."
-  (let* ((z (paper-z confidence (length fits)))
-         (intervals (loop for fit in fits
-                          collect (paper-interval (fit-coefficients fit)
-                                                  (parameter-region-initial-bounds region)
-                                                  (* z (/ (fit-residual-sum fit)
-                                                          (sqrt (float count 1d0))))))))
-    (judge-intervals intervals (parameter-region-final-bounds region) count
-                     :coefficients (mapcar #'fit-coefficients fits)
-                     :sigma (mapcar #'fit-residual-sum fits)
-                     :z z)))
+(defgeneric rule-spread (rule fit count)
+  (:documentation "Return what RULE takes for sigma of FIT after COUNT samples, or NIL if these are
+too few to tell.")
+  (:method ((rule paper-rule) fit count)
+    (declare (ignore count))
+    (fit-residual-sum fit)))
 
-(defmethod confidence-verdict ((rule paper-rule) samples region)
-  (let* ((samples (coerce samples 'list))
-         (count (length samples))
-         (design (design-matrix samples (length (parameter-region-initial-bounds region))))
-         (columns (merged-column-count design))
-         (responses (loop for index below (length (parameter-region-final-bounds region))
-                          collect (final-values samples index))))
+(defun judge-fits (rule fits region count)
+  "Return the verdict of RULE after COUNT samples, given a FIT with coefficients for each final
+parameter."
+  (let ((z (paper-z (confidence-rule-confidence rule) (length fits)))
+        (spreads (loop for fit in fits collect (rule-spread rule fit count))))
+    (if (every #'identity spreads)
+        (judge-intervals (loop for fit in fits
+                               for spread in spreads
+                               collect (paper-interval (fit-coefficients fit)
+                                                       (parameter-region-initial-bounds region)
+                                                       (* z (/ spread (sqrt (float count 1d0))))))
+                         (parameter-region-final-bounds region) count
+                         :coefficients (mapcar #'fit-coefficients fits)
+                         :sigma spreads :z z)
+        (not-yet count "~d samples for ~d columns leave no spread" count
+                 (fit-columns (first fits))))))
+
+(defmethod evidence-verdict ((rule paper-rule) evidence)
+  (let* ((regression (evidence-regression evidence))
+         (region (evidence-region evidence))
+         (outputs (regression-outputs regression))
+         (count (evidence-blind evidence))
+         (columns (linear-columns regression)))
     (cond ((< count (max 1 columns))
            (not-yet count "~d sample~:p for ~d column~:p" count columns))
-          ((null responses)
+          ((zerop outputs)
            (make-verdict :confident
                          (format nil "after ~d sample~:p there is no final parameter to predict"
                                  count)
                          :count count))
           ((zerop columns)
-           (judge-intervals (mapcar #'observed-interval responses)
+           (judge-intervals (observed-intervals evidence)
                             (parameter-region-final-bounds region) count))
           (t
-           (let ((fits (loop for response in responses
-                             collect (least-squares design response))))
+           (let ((fits (loop for output below outputs collect (linear-fit regression output))))
              (if (every #'fit-coefficients fits)
-                 (judge-fits fits (confidence-rule-confidence rule) region count)
+                 (judge-fits rule fits region count)
                  (not-yet count "the ~d columns of ~d samples have rank ~d"
                           columns count (fit-rank (first fits)))))))))
+
+;;; The paper's rule with a standard deviation
+
+(defclass paper-sd-rule (paper-rule)
+  ()
+  (:documentation "The paper's rule, but with sigma the standard deviation of the residuals,
+sqrt(RSS / (s - n)) for s samples and n columns, so that the verdict does not depend on the unit; it
+needs a sample more than there are columns."))
+
+(register-confidence-rule :paper-sd 'paper-sd-rule)
+
+(defmethod rule-spread ((rule paper-sd-rule) fit count)
+  (let ((freedom (- count (fit-columns fit))))
+    (and (plusp freedom) (sqrt (/ (fit-residual-sum fit) freedom)))))

@@ -1,0 +1,136 @@
+;;;; Reaching: which grasp, with which arm, in which configurations.
+;;;;
+;;;; A REACH is a plan of an arm: the WAY to where the straight line begins on which the hand comes,
+;;;; the LINE itself, and the line on which the hand LEAVES, with what it holds.  FIND-REACH tries
+;;;; poses of the tool one after the other, for each height of the torso, the present one first.
+
+(in-package #:discrepancy-finder.projection)
+
+(defstruct (reach (:copier nil))
+  "The ways of ARM to the pose TOOL of its tool: WAY, LINE and LEAVING are lists of positions.  GOAL
+is what the plan is for, as it was given to FIND-REACH."
+  (arm nil :type arm :read-only t)
+  (goal nil :read-only t)
+  (tool nil :type pose :read-only t)
+  (way '() :type list :read-only t)
+  (line '() :type list :read-only t)
+  (leaving '() :type list :read-only t))
+
+(defparameter *efforts* '((:count 1 :restarts 2) (:count 4 :restarts 6))
+  "How hard configurations are looked for, at first and if there are none then.")
+
+(defun arm-length (projection arm)
+  "Return how far (m) the tool of ARM gets from its first joint, at the most."
+  (let ((frames (robot-frames (projection-robot projection))))
+    (loop for number = (arm-tool arm) then (link-frame-parent (svref frames number))
+          until (= number (first (arm-joints arm)))
+          sum (let ((origin (urdf-joint-origin (link-frame-joint (svref frames number)))))
+                (sqrt (dot (pose-position origin) (pose-position origin)))))))
+
+(defun shoulder-position (projection arm positions)
+  (let ((robot (projection-robot projection)))
+    (pose-position (bullet:forward-kinematics (robot-mechanism robot) (base-pose robot) positions
+                                              (first (arm-joints arm))))))
+
+(defun within-length-p (projection arm positions pose)
+  (let ((way (mapcar #'- (pose-position pose) (shoulder-position projection arm positions))))
+    (<= (sqrt (dot way way)) (arm-length projection arm))))
+
+(defparameter *support-distance* 0.015d0
+  "What is to be put down must be free this much (m) higher; below is what it is put on.")
+
+(defun carried-free-p (projection arm positions tool)
+  "Return true if what ARM holds would touch nothing a little above where it is at POSITIONS, with
+the tool at the pose TOOL; or if it holds nothing."
+  (or (null (carried-bodies projection arm))
+      (let ((above (first (solve projection arm (moved tool (list 0d0 0d0 *support-distance*))
+                                 positions :restarts 0))))
+        (and above (free-p projection arm above)))))
+
+(defun reach-from (projection arm goal tool begin end start ignored target effort)
+  "Return a REACH of ARM with its tool at TOOL, coming from BEGIN and leaving to END, a pose or a
+list of poses on the way, by a configuration near START; or NIL and why not, :UNREACHABLE or
+:COLLISION.  EFFORT is a list of keyword arguments of SOLVE."
+  (let ((reason :unreachable)
+        ;; What is in a container moves with it.
+        (along (and (listp end) (mapcar #'cdr (projection-items projection)))))
+    (dolist (there (apply #'solve projection arm tool start effort)
+                   (values nil reason))
+      (let ((back (straight-way projection arm there tool begin))
+            (leaving (if (listp end)
+                         (way-through projection arm there end)
+                         (straight-way projection arm there tool end))))
+        (when (and back leaving
+                   ;; From a handle the hand has to get away where it has come to.
+                   (or (not (listp end))
+                       (straight-way projection arm (first (last leaving)) (first (last end))
+                                     (advanced (first (last end)) (- *approach-distance*)))))
+          (setf reason :collision)
+          (let ((before (first (last back))))
+            (when (and (free-p projection arm before :ignored ignored)
+                       (free-p projection arm there :ignored (append target ignored) :carried nil)
+                       (carried-free-p projection arm there tool)
+                       (loop for positions in (butlast back)
+                             always (free-p projection arm positions
+                                            :ignored (append target ignored)))
+                       (loop for positions in leaving
+                             always (free-p projection arm positions
+                                            :ignored (append target along ignored))))
+              (let ((way (plan-way projection arm (reaching-positions projection arm) before
+                                   :ignored ignored)))
+                (when way
+                  (return (values (make-reach :arm arm :goal goal :tool tool :way way
+                                              :line (append (rest (reverse back)) (list there))
+                                              :leaving leaving)
+                                  nil)))))))))))
+
+(defun find-reach (projection arm candidates &key ignored target)
+  "Return the first REACH of ARM that there is for CANDIDATES, lists of a goal and the poses of the
+tool there, before and afterwards; or NIL and why there is none, :UNREACHABLE or :COLLISION.  The
+bodies IGNORED may be touched all the time, those of TARGET from the straight line on."
+  (let ((reason :unreachable) (heights (or (torso-heights projection arm) '(nil))))
+    (dolist (effort *efforts* (values nil reason))
+      (dolist (height heights)
+        (let ((start (reaching-positions projection arm height)))
+          (loop for (goal tool begin end) in candidates
+                do (when (within-length-p projection arm start tool)
+                     (multiple-value-bind (reach why)
+                         (reach-from projection arm goal tool begin end start ignored target
+                                     effort)
+                       (when reach (return-from find-reach reach))
+                       (when (eq why :collision) (setf reason why))))))))))
+
+(defun fail-to-reach (reason arms what)
+  "Signal the failure for REASON, as FIND-REACH returns it."
+  (let ((names (format nil "the ~{~(~a~)~^ and the ~} arm~p" (mapcar #'arm-name arms)
+                       (length arms))))
+    (if (eq reason :collision)
+        (plan:fail 'plan:manipulation-goal-not-reached
+                   :description (format nil "~a cannot get to ~a without touching something" names
+                                        what))
+        (plan:fail 'plan:manipulation-pose-unreachable
+                   :description (format nil "~a cannot reach ~a" names what)))))
+
+(defun with-present-grippers (projection way)
+  "Return WAY with the grippers as they are now."
+  (let ((present (joint-positions (projection-robot projection))))
+    (loop for positions in way
+          collect (let ((positions (copy-seq positions)))
+                    (dolist (arm (robot-arms (projection-robot projection)) positions)
+                      (setf (aref positions (arm-gripper arm))
+                            (aref present (arm-gripper arm))))))))
+
+(defun fail-to-move (arm bodies)
+  "Signal that ARM has stopped because the two BODIES would have touched."
+  (plan:fail 'plan:manipulation-goal-not-reached
+             :description (format nil "the ~(~a~) arm stopped where ~a" (arm-name arm)
+                                  (contact-text bodies))))
+
+(defun follow (projection arm way &key (watch :all) ignore smoothly)
+  "Move ARM along WAY, without stopping at its configurations if SMOOTHLY is true.  Signals
+MANIPULATION-GOAL-NOT-REACHED where something is touched."
+  (when way
+    (multiple-value-bind (reason bodies)
+        (funcall (if smoothly #'run-smoothly #'run-path)
+                 projection (with-present-grippers projection way) :watch watch :ignore ignore)
+      (when reason (fail-to-move arm bodies)))))
