@@ -17,7 +17,8 @@
 
 (define-raw %motion-begin "dfb_motion_begin" :int
   (world :pointer) (mechanism :int) (start :pointer) (goal :pointer)
-  (via-count :int) (via :pointer) (base-moves :int) (fast :int) (contact-distance :double) (watched-count :int) (watched :pointer)
+  (via-count :int) (via :pointer) (base-moves :int) (fast :int)
+  (contact-distance :double) (watched-count :int) (watched :pointer)
   (obstacle-count :int) (obstacles :pointer))
 (define-raw %motion-continue "dfb_motion_continue" :int
   (world :pointer) (mechanism :int) (count :int) (bases :pointer) (fractions :pointer)
@@ -49,7 +50,8 @@
                                  (if (eq fidelity :fast) 1 0) contact-distance
                                  (length watched) watched-pointer
                                  (length obstacles) obstacles-pointer)
-                (:bad-number "a position of the start, the goal or in between is not finite")))))))))
+                (:bad-number
+                 "a position of the start, the goal or in between is not finite")))))))))
 
 (defun continue-motion (mechanism steps bases fractions)
   "Do the STEPS of the motion that was begun; return how many were done and the bodies of the

@@ -294,7 +294,27 @@ item was lost, and where it is then."
                           :steps 1000 :bases (straight-bases (ramp 1000 1.5d0 1 :braking 3)))
              (bullet:state-hash (carrier-world carrier)))))
     (dolist (fidelity '(:full :fast))
-      (is (= (state fidelity) (state fidelity))))))
+      (let ((hash (state fidelity)))
+        (is (every (lambda (other) (= hash other))
+                   (mapcar #'sb-thread:join-thread
+                           (loop repeat 4
+                                 collect (sb-thread:make-thread #'state
+                                                                :arguments (list fidelity))))))))))
+
+(test motions-go-on-alike-from-a-checkpoint
+  (dolist (fidelity '(:full :fast))
+    (with-carrier (carrier)
+      (let ((world (carrier-world carrier))
+            (ways (ramp 400 0.4d0 1)))
+        (flet ((go-on ()
+                 (run-carrier carrier fidelity :steps 200 :goal (goal 0 0.9d0 0.3d0 0)
+                                               :fractions (subseq ways 200))
+                 (bullet:state-hash world)))
+          (run-carrier carrier fidelity :steps 200 :goal (goal 0 0.8d0 1 0) :fractions ways)
+          (let* ((checkpoint (bullet:make-checkpoint world))
+                 (hash (go-on)))
+            (bullet:restore-checkpoint world checkpoint)
+            (is (= hash (go-on)))))))))
 
 (test senseless-motions-are-refused
   (with-carrier (carrier)
