@@ -103,8 +103,9 @@ piece of which is the same part of the way.
 
 WATCHED and OBSTACLES are lists of bodies.  A step in which a watched body (of a link, or attached
 to one) would come as near as CONTACT-DISTANCE (m) to an obstacle is not done, and ends the motion:
-the two are still apart then.  Two that touched at the start may move along each other, but come no
-more than 1 mm closer; pairs that ignore their collision do not count.
+the two are still apart then.  Two that were within 1 mm of that at the start may pass along each
+other, up to 1 mm nearer than CONTACT-DISTANCE or 0.5 mm nearer than at the start.  Pairs that
+ignore their collision do not count.
 
 Return how many steps were done; :DONE or :CONTACT; and the watched body and the obstacle of the
 contact.  FIDELITY is :FULL or :FAST, see the top of the file.  Signals BULLET-ERROR if a number is
