@@ -243,19 +243,17 @@ DFB_API int dfb_inverse_kinematics(dfb_world *world, int mechanism, int link, co
                                    double *solutions, double *error);
 
 /* Motions of a mechanism */
-/* Let the motion that is begun next take the joints on a smooth curve through count positions, one
- * set after the other, between start and goal. */
-DFB_API int dfb_motion_via(dfb_world *world, int mechanism, int count, const double *positions);
-/* Begin a motion that takes the joints straight from start to goal (joints that are not at start
- * are put there first, at rest; start NULL: where they are; goal NULL: start) and, with base_moves
- * 1, the base along bases.  Without fast each step steps the world; with fast 1 steps that can
+/* Begin a motion that takes the joints from start to goal (joints that are not at start are put
+ * there first, at rest; start NULL: where they are; goal NULL: start), straight or on a smooth curve
+ * through via_count positions in between, one set after the other, and, with base_moves 1, the base
+ * along bases.  Without fast each step steps the world; with fast 1 steps that can
  * affect nothing but held bodies are skipped.  A step in which a watched body, of a link or
  * attached to one, would come as near as contact_distance (m, not negative) to an obstacle ends
  * the motion before it. */
 DFB_API int dfb_motion_begin(dfb_world *world, int mechanism, const double *start,
-                             const double *goal, int base_moves, int fast,
-                             double contact_distance, int watched_count, const int *watched,
-                             int obstacle_count, const int *obstacles);
+                             const double *goal, int via_count, const double *via, int base_moves,
+                             int fast, double contact_distance, int watched_count,
+                             const int *watched, int obstacle_count, const int *obstacles);
 /* Do up to count steps more of the motion begun last: bases has a pose, fractions the part of the
  * way of the joints after each step; either may be NULL for what does not change.  Return how many
  * were done before a contact; write the two bodies of the contact, or -1. */

@@ -3,8 +3,8 @@
 ;;;; A mechanism is a vector of LINK-SPECs, parents first.  A link hangs on one joint, which has the
 ;;;; link's index: the joint's ORIGIN is its pose in the frame of the parent link (of the base, for
 ;;;; a link without parent), and its position turns the link about AXIS (rad) or shifts it along
-;;;; AXIS (m).  POSITIONS are a vector of double floats, one for each joint; those of fixed joints and of
-;;;; joints that mimic another one are not looked at.  A link may have a kinematic body, whose pose
+;;;; AXIS (m).  POSITIONS are a vector of double floats, one for each joint; those of fixed joints
+;;;; and of joints that mimic another one are not looked at.  A link may have a kinematic body, whose pose
 ;;;; is that of the link.  POSE-MECHANISM moves them all, in one foreign call.
 
 (in-package #:discrepancy-finder.bullet)
@@ -89,40 +89,41 @@ index of another joint, a multiplier and an offset; BODY is NIL or a kinematic b
 (defconstant +link-integers+ 4)
 (defconstant +link-numbers+ 14)
 
-(defun unit-axis (axis owner)
-  "Return the list AXIS of three numbers as one of length 1."
+(defun unit-axis (axis name)
+  "Return the list AXIS of three numbers, of the link NAME, as one of length 1."
   (unless (eql (ignore-errors (list-length axis)) 3)
-    (fail 'make-mechanism "the axis ~s of ~a is no list of three numbers" axis owner))
+    (fail 'make-mechanism "the axis ~s of link ~a is no list of three numbers" axis name))
   (let* ((numbers (loop for number in axis
-                        collect (number-of (format nil "a number of the axis of ~a" owner)
-                                           number 'make-mechanism)))
+                        collect (number-of (list "a number of the axis of link ~a" name) number
+                                           'make-mechanism)))
          (length (sqrt (reduce #'+ (mapcar #'* numbers numbers)))))
     (when (< length 1d-9)
-      (fail 'make-mechanism "the axis of ~a has no direction" owner))
+      (fail 'make-mechanism "the axis of link ~a has no direction" name))
     (mapcar (lambda (number) (/ number length)) numbers)))
 
-(defun link-integers (link world owner)
+(defun link-integers (link world name)
   "Return the list of the integers that the shim wants to know of LINK."
   (let ((mimic (link-spec-mimic link))
         (body (link-spec-body link)))
     (when (and mimic (not (and (eql (ignore-errors (list-length mimic)) 3)
                                (typep (first mimic) '(unsigned-byte 31)))))
-      (fail 'make-mechanism "~s, which ~a mimics, is no (index multiplier offset)" mimic owner))
+      (fail 'make-mechanism "~s, which link ~a mimics, is no (index multiplier offset)"
+            mimic name))
     (when (and body (not (eq (body-world body) world)))
-      (fail 'make-mechanism "body ~a of ~a is of another world" (body-name body) owner))
+      (fail 'make-mechanism "body ~a of link ~a is of another world" (body-name body) name))
     (list (or (link-spec-parent link) -1)
           (ecase (link-spec-type link) (:fixed 0) ((:revolute :continuous) 1) (:prismatic 2))
           (if mimic (first mimic) -1)
           (if body (body-id body) -1))))
 
-(defun link-numbers (link owner)
+(defun link-numbers (link name)
   "Return the list of the double floats that the shim wants to know of LINK."
-  (flet ((limit (value name none)
+  (flet ((limit (value which none)
            (if (and value (not (eq (link-spec-type link) :continuous)))
-               (number-of (format nil "the ~a limit of ~a" name owner) value 'make-mechanism)
+               (number-of (list "the ~a limit of link ~a" which name) value 'make-mechanism)
                none))
-         (mimicked (value name)
-           (number-of (format nil "the ~a of ~a" name owner) value 'make-mechanism)))
+         (mimicked (value what)
+           (number-of (list "the ~a of link ~a" what name) value 'make-mechanism)))
     (destructuring-bind (&optional (index 0) (multiplier 1d0) (offset 0d0)) (link-spec-mimic link)
       (declare (ignore index))
       (let ((lower (limit (link-spec-lower link) "lower"
@@ -130,9 +131,9 @@ index of another joint, a multiplier and an offset; BODY is NIL or a kinematic b
             (upper (limit (link-spec-upper link) "upper"
                           sb-ext:double-float-positive-infinity)))
         (when (> lower upper)
-          (fail 'make-mechanism "the lower limit of ~a is above the upper one" owner))
+          (fail 'make-mechanism "the lower limit of link ~a is above the upper one" name))
         (append (geometry:pose-components (link-spec-origin link))
-                (unit-axis (link-spec-axis link) owner)
+                (unit-axis (link-spec-axis link) name)
                 (list lower upper (mimicked multiplier "multiplier")
                       (mimicked offset "offset")))))))
 
@@ -148,14 +149,14 @@ body is not a kinematic one of WORLD, or a number is out of range."
       (fail 'make-mechanism "a mechanism has at least one link"))
     (loop for link across links
           for i from 0
-          for owner = (format nil "link ~a" (and (link-spec-p link) (link-spec-name link)))
           do (unless (link-spec-p link)
                (fail 'make-mechanism "~s is no link-spec" link))
-             (let ((parent (link-spec-parent link)))
+             (let ((parent (link-spec-parent link))
+                   (name (link-spec-name link)))
                (when (and parent (>= parent i))
-                 (fail 'make-mechanism "~a stands before its parent, number ~d" owner parent)))
-             (replace integers (link-integers link world owner) :start1 (* +link-integers+ i))
-             (replace numbers (link-numbers link owner) :start1 (* +link-numbers+ i)))
+                 (fail 'make-mechanism "link ~a stands before its parent, number ~d" name parent))
+               (replace integers (link-integers link world name) :start1 (* +link-integers+ i))
+               (replace numbers (link-numbers link name) :start1 (* +link-numbers+ i))))
     (%make-mechanism
      world
      (cffi:with-pointer-to-vector-data (integers-pointer integers)

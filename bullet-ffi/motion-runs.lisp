@@ -15,11 +15,10 @@
 
 (in-package #:discrepancy-finder.bullet)
 
-(define-raw %motion-via "dfb_motion_via" :int
-  (world :pointer) (mechanism :int) (count :int) (positions :pointer))
 (define-raw %motion-begin "dfb_motion_begin" :int
-  (world :pointer) (mechanism :int) (start :pointer) (goal :pointer) (base-moves :int)
-  (fast :int) (contact-distance :double) (watched-count :int) (watched :pointer)
+  (world :pointer) (mechanism :int) (start :pointer) (goal :pointer)
+  (via-count :int) (via :pointer) (base-moves :int) (fast :int)
+  (contact-distance :double) (watched-count :int) (watched :pointer)
   (obstacle-count :int) (obstacles :pointer))
 (define-raw %motion-continue "dfb_motion_continue" :int
   (world :pointer) (mechanism :int) (count :int) (bases :pointer) (fractions :pointer)
@@ -36,29 +35,23 @@
                (,function ,pointer))
              (,function (cffi:null-pointer)))))))
 
-(defun set-via (mechanism positions-list)
-  "Let the motion that is begun next go through the vectors in POSITIONS-LIST."
-  (dolist (positions positions-list)
-    (check-positions mechanism positions 'run-motion))
-  (when positions-list
-    (let ((all (apply #'concatenate 'positions positions-list)))
-      (cffi:with-pointer-to-vector-data (data all)
-        (invoke ('run-motion pointer (mechanism-world mechanism))
-            (%motion-via pointer (mechanism-id mechanism) (length positions-list) data)
-          (:bad-number "a position on the way is not finite"))))))
-
-(defun begin-motion (mechanism start goal base-moves fidelity contact-distance watched obstacles)
-  (let ((world (mechanism-world mechanism)))
+(defun begin-motion (mechanism start through goal base-moves fidelity contact-distance watched
+                     obstacles)
+  (let ((world (mechanism-world mechanism))
+        (via (and through (apply #'concatenate 'positions through))))
     (cffi:with-pointer-to-vector-data (watched-pointer watched)
       (cffi:with-pointer-to-vector-data (obstacles-pointer obstacles)
         (with-optional-vector (start-pointer start)
           (with-optional-vector (goal-pointer goal)
-            (invoke ('run-motion pointer world)
-                (%motion-begin pointer (mechanism-id mechanism) start-pointer goal-pointer
-                               (if base-moves 1 0) (if (eq fidelity :fast) 1 0)
-                               contact-distance (length watched) watched-pointer
-                               (length obstacles) obstacles-pointer)
-              (:bad-number "the start or the goal is not finite"))))))))
+            (with-optional-vector (via-pointer via)
+              (invoke ('run-motion pointer world)
+                  (%motion-begin pointer (mechanism-id mechanism) start-pointer goal-pointer
+                                 (length through) via-pointer (if base-moves 1 0)
+                                 (if (eq fidelity :fast) 1 0) contact-distance
+                                 (length watched) watched-pointer
+                                 (length obstacles) obstacles-pointer)
+                (:bad-number
+                 "a position of the start, the goal or in between is not finite")))))))))
 
 (defun continue-motion (mechanism steps bases fractions)
   "Do the STEPS of the motion that was begun; return how many were done and the bodies of the
@@ -110,8 +103,9 @@ piece of which is the same part of the way.
 
 WATCHED and OBSTACLES are lists of bodies.  A step in which a watched body (of a link, or attached
 to one) would come as near as CONTACT-DISTANCE (m) to an obstacle is not done, and ends the motion:
-the two are still apart then.  Two that touched at the start may move along each other, but come no
-more than 1 mm closer; pairs that ignore their collision do not count.
+the two are still apart then.  Two that were within 1 mm of that at the start may pass along each
+other, up to 1 mm nearer than CONTACT-DISTANCE or 0.5 mm nearer than at the start.  Pairs that
+ignore their collision do not count.
 
 Return how many steps were done; :DONE or :CONTACT; and the watched body and the obstacle of the
 contact.  FIDELITY is :FULL or :FAST, see the top of the file.  Signals BULLET-ERROR if a number is
@@ -124,9 +118,10 @@ not finite, a vector too short or a body of another world."
   (check-steps fractions 1 steps "fractions")
   (when start (check-positions mechanism start 'run-motion))
   (when goal (check-positions mechanism goal 'run-motion))
-  (set-via mechanism through)
+  (dolist (positions through)
+    (check-positions mechanism positions 'run-motion))
   (let ((world (mechanism-world mechanism)))
-    (begin-motion mechanism start goal (not (null bases)) fidelity
+    (begin-motion mechanism start through goal (not (null bases)) fidelity
                   (number-of "the contact distance" contact-distance 'run-motion :not-negative)
                   (body-ids world watched 'run-motion)
                   (body-ids world obstacles 'run-motion))

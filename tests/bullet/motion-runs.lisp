@@ -176,6 +176,38 @@ item was lost, and where it is then."
     (is (equal '(:contact t 1 t t) (outcome :full)))
     (is (equal '(:contact t 1 t t) (outcome :fast)))))
 
+;; A start that is off by a rounding error is no reason to put the arm there, at rest.
+(test motions-may-follow-each-other-at-speed
+  (dolist (fidelity '(:full :fast))
+    (with-carrier (carrier :capacity 7)
+      (let ((ways (ramp 400 0.4d0 1)))
+        (loop for i from 0 below 400 by 8
+              for before = (if (zerop i) 0d0 (aref ways (1- i)))
+              for after = (aref ways (+ i 7))
+              do (run-carrier carrier fidelity
+                              :steps 8 :start (goal 0 (+ 0.5d0 before 1d-13) 0 0)
+                              :goal (goal 0 (+ 0.5d0 after) 0 0)
+                              :fractions (map '(simple-array double-float (*))
+                                              (lambda (way) (/ (- way before)
+                                                               (max 1d-9 (- after before))))
+                                              (subseq ways i (+ i 8)))))
+        (is-true (bullet:attachment-live-p (carrier-attachment carrier)))
+        (is (near (+ 0.9d0 0.2d0 0.2d0) 1d-6 (height (carrier-item carrier))))))))
+
+(test motions-through-positions-are-smooth-curves
+  (flet ((heights (fidelity)
+           (with-carrier (carrier)
+             (run-carrier carrier fidelity
+                          :steps 100 :through (list (goal 0 0.6d0 0 0) (goal 0 0.6d0 0.2d0 0))
+                          :goal (goal 0 0.5d0 0.2d0 0)
+                          :fractions (map '(simple-array double-float (*))
+                                          (lambda (way) (/ way 0.4d0)) (ramp 100 0.4d0 4)))
+             (list (nth-value 1 (bullet:mechanism-posture (carrier-mechanism carrier)))
+                   (bullet:body-pose (carrier-hand carrier))))))
+    (let ((full (heights :full)) (fast (heights :fast)))
+      (is (equalp (first full) (first fast)))
+      (is (geometry:pose= (second full) (second fast))))))
+
 ;;; Contacts
 
 (defun add-box (world name pose &rest options)
@@ -262,7 +294,27 @@ item was lost, and where it is then."
                           :steps 1000 :bases (straight-bases (ramp 1000 1.5d0 1 :braking 3)))
              (bullet:state-hash (carrier-world carrier)))))
     (dolist (fidelity '(:full :fast))
-      (is (= (state fidelity) (state fidelity))))))
+      (let ((hash (state fidelity)))
+        (is (every (lambda (other) (= hash other))
+                   (mapcar #'sb-thread:join-thread
+                           (loop repeat 4
+                                 collect (sb-thread:make-thread #'state
+                                                                :arguments (list fidelity))))))))))
+
+(test motions-go-on-alike-from-a-checkpoint
+  (dolist (fidelity '(:full :fast))
+    (with-carrier (carrier)
+      (let ((world (carrier-world carrier))
+            (ways (ramp 400 0.4d0 1)))
+        (flet ((go-on ()
+                 (run-carrier carrier fidelity :steps 200 :goal (goal 0 0.9d0 0.3d0 0)
+                                               :fractions (subseq ways 200))
+                 (bullet:state-hash world)))
+          (run-carrier carrier fidelity :steps 200 :goal (goal 0 0.8d0 1 0) :fractions ways)
+          (let* ((checkpoint (bullet:make-checkpoint world))
+                 (hash (go-on)))
+            (bullet:restore-checkpoint world checkpoint)
+            (is (= hash (go-on)))))))))
 
 (test senseless-motions-are-refused
   (with-carrier (carrier)
