@@ -391,7 +391,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
                              (:file "seeing") (:file "manipulation")
-                             (:file "manipulation-kitchen") (:file "actions-symbolic")))
+                             (:file "manipulation-kitchen")
+                             (:file "manipulation-actions") (:file "actions-symbolic")))
                (:module "statistics"
                 :serial t
                 :components ((:file "normal") (:file "distributions") (:file "least-squares")
