@@ -32,6 +32,10 @@ and of the links FINGERS; PARKED are the joints' positions (m or rad) when the a
   "Return the ARM-ROLES of the arm NAME, a symbol, of PART, a robot, or NIL."
   (find (source:name-keyword name) (scene-part-arms part) :key #'arm-roles-name))
 
+(defun scene-arm-names (scene)
+  "Return the list of the names (keywords) of the arms of SCENE's robot."
+  (and (scene-robot scene) (mapcar #'arm-roles-name (scene-part-arms (scene-robot scene)))))
+
 (defun role-problem (role name model)
   "Return what is wrong with NAME in the ROLE of a robot with MODEL, or NIL."
   (let ((joint (find-urdf-joint model name))

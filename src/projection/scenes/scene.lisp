@@ -185,6 +185,14 @@ item's frame.  Signals UNKNOWN-BODY."
   "Return the name (a keyword) of SCENE's robot, or NIL if it has none."
   (and (scene-robot scene) (scene-part-name (scene-robot scene))))
 
+(defun scene-joint-p (scene name)
+  "Return true if a part of SCENE has a joint NAME, a string, that moves."
+  (loop for part in (scene-parts scene)
+        thereis (find-if (lambda (joint)
+                           (and (string= name (urdf-joint-name joint))
+                                (not (eq (urdf-joint-type joint) :fixed))))
+                         (urdf-model-joints (scene-part-model part)))))
+
 (defun scene-files (scene)
   "Return the names of the files that SCENE was read from: its own and those of its models."
   (cons (scene-file scene)
