@@ -25,6 +25,10 @@ and of the links FINGERS; PARKED are the joints' positions (m or rad) when the a
   (fingers '() :type list :read-only t)
   (parked '() :type list :read-only t))
 
+(defmethod print-object ((arm arm-roles) stream)
+  (print-unreadable-object (arm stream :type t)
+    (format stream "~(~a~), ~d joint~:p" (arm-roles-name arm) (length (arm-roles-joints arm)))))
+
 (defparameter *column-roles* '(:lift :shoulder :extension :gripper)
   "The roles of a robot with a telescopic arm on a column.")
 
