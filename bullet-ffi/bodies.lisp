@@ -53,7 +53,7 @@
     (setf (gethash (body-name body) (world-body-names world)) body)
     (vector-push-extend body (world-body-vector world))))
 
-(defun write-pose (pose numbers start)
+(defun put-pose (pose numbers start)
   "Write the seven numbers of POSE into NUMBERS from START on."
   (declare (type (simple-array double-float (*)) numbers) (type fixnum start))
   (with-pose-numbers (pose)
@@ -67,9 +67,9 @@ checked; MATERIAL is a list of five numbers."
   (let ((numbers (make-array 23 :element-type 'double-float))
         (owner (list "body ~a" name))
         (body nil))
-    (write-pose pose numbers 0)
+    (put-pose pose numbers 0)
     (setf (aref numbers 7) mass)
-    (write-pose inertial-pose numbers 11)
+    (put-pose inertial-pose numbers 11)
     (replace numbers material :start1 18)
     (with-shape (shape-pointer shape owner)
       (when (eq kind :dynamic)
@@ -151,10 +151,10 @@ the world is closed."
             (aref state 10) (aref state 11) (aref state 12))))
 
 (defun move-body (body pose)
-  "Move the link frame of the kinematic BODY to POSE: in the next step it has the velocity that takes it there, so
-that it pushes and drags what it touches.  Not moved in the step after that, it stands still.
-Return BODY.  Signals BULLET-ERROR if BODY is not kinematic or POSE no finite position with a unit
-quaternion."
+  "Move the link frame of the kinematic BODY to POSE: in the next step it has the velocity that
+takes it there, so that it pushes and drags what it touches.  Not moved in the step after that, it
+stands still.  Return BODY.  Signals BULLET-ERROR if BODY is not kinematic or POSE no finite
+position with a unit quaternion."
   (declare (optimize speed (safety 1)) (type body body) (type geometry:pose pose))
   (with-pose-numbers (pose)
     (invoke ('move-body pointer (body-world body))

@@ -1,8 +1,8 @@
 ;;;; Volume, centre of mass and inertia of shapes that are filled evenly.
 ;;;;
-;;;; Everything comes from the moments of a shape, 13 double floats: its volume, the integrals over it
-;;;; of x, y and z, and of their products, row by row.  Bullet's own moments of inertia are those of
-;;;; the bounding box for cylinders, hulls and compounds, a third too much for a rolling cup.
+;;;; Everything comes from the moments of a shape, 13 double floats: its volume, the integrals over
+;;;; it of x, y and z, and of their products, row by row.  Bullet's own moments of inertia are those
+;;;; of the bounding box for cylinders, hulls and compounds, a third too much for a rolling cup.
 
 (in-package #:discrepancy-finder.bullet)
 
@@ -156,9 +156,9 @@ axes.  Signals BULLET-ERROR if a number is not finite."
             (axes-pose axes))))
 
 (defun mass-properties (shape mass)
-  "Return two values for ADD-BODY: the principal moments of inertia (kg m^2) about its centre of mass
-of a body with a well-formed SHAPE, which is no plane, and MASS (kg), evenly spread, and the inertial
-pose, that of their axes in the link frame."
+  "Return two values for ADD-BODY: the principal moments of inertia (kg m^2) about its centre of
+mass of a body with a well-formed SHAPE, which is no plane, and MASS (kg), evenly spread, and the
+inertial pose, that of their axes in the link frame."
   (let* ((moments (shape-moments shape))
          (volume (aref moments 0))
          (density (/ mass volume))

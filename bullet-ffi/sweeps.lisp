@@ -15,8 +15,8 @@ turning evenly.  Return the first body that it touches, which part, 0 to 1, of t
 then, an upright pose where it touches, and the outward normal of the body there, a list of three
 numbers; or NIL if there is none.  A body that the shape is in at first is touched at once, with a
 normal against the way.  PASSED is a list of bodies that do not
-count.  Signals BULLET-ERROR if SHAPE is another one or malformed, the positions are not finite or not
-1e-9 m apart, or a body is of another world."
+count.  Signals BULLET-ERROR if SHAPE is another one or malformed, the positions are not finite or
+not 1e-9 m apart, or a body is of another world."
   (check-type from geometry:pose)
   (check-type to geometry:pose)
   (live-pointer world 'sweep)

@@ -181,8 +181,10 @@
         (flet ((sweep (shape from to &rest options)
                  (apply #'bullet:sweep world shape from to options)))
           (loop for arguments
-                  in `(((:sphere 1) ,(at 0 0 0) ,(at 0 0 0)) ((:sphere 1) ,(at 0 0 0) ,(at 0 0 1d-10))
-                       ((:sphere 0) ,(at 0 0 0) ,(at 1 0 0)) ((:plane 0 0 1 0) ,(at 0 0 0) ,(at 1 0 0))
+                  in `(((:sphere 1) ,(at 0 0 0) ,(at 0 0 0))
+                       ((:sphere 1) ,(at 0 0 0) ,(at 0 0 1d-10))
+                       ((:sphere 0) ,(at 0 0 0) ,(at 1 0 0))
+                       ((:plane 0 0 1 0) ,(at 0 0 0) ,(at 1 0 0))
                        ((:compound (,(at 0 0 0) (:sphere 1))) ,(at 0 0 0) ,(at 1 0 0))
                        (:ball ,(at 0 0 0) ,(at 1 0 0))
                        ((:sphere 1) ,(geometry:quaternion-pose (nan) 0d0 0d0 0d0 0d0 0d0 1d0)

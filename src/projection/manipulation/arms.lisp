@@ -2,13 +2,14 @@
 ;;;;
 ;;;; An ARM is what the scene says of one (ARM-ROLES), with the numbers of the robot's frames in the
 ;;;; place of names.  POSITIONS are vectors with a position (m or rad) for each frame of the robot,
-;;;; as in JOINT-POSITIONS.  A configuration is free if the arm and what it holds touch nothing there.
+;;;; as in JOINT-POSITIONS.  A configuration is free if the arm and what it holds touch nothing
+;;;; there.
 
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (arm (:copier nil))
-  "An arm of a robot: numbers of frames.  LINKS are all that its joints move, HAND-LINKS those behind
-the last one, BLOCKERS the other links of the robot that it could touch; TORSO is NIL without one."
+  "An arm of a robot: numbers of frames.  LINKS are all that its joints move, HAND-LINKS those
+behind the last one, BLOCKERS the other links of the robot that it could touch; TORSO is NIL without one."
   (name nil :type keyword :read-only t)
   (joints '() :type list :read-only t)
   (tool 0 :type fixnum :read-only t)
@@ -191,10 +192,10 @@ at POSITIONS but the bodies IGNORED, and with CARRIED what it holds neither."
                                    (* 2 *planning-clearance*))
        *planning-clearance*)))
 
-(defun way-free-p (projection arm start goal &key ignored)
+(defun way-free-p (projection arm start goal)
   "Return true if ARM can go straight in joint space from START to GOAL."
   (let ((robot (projection-robot projection)))
     (null (bullet:path-contact (robot-mechanism robot) (base-pose robot) start goal
                                  (append (arm-bodies projection (cddr (arm-links arm)))
                                          (carried-bodies projection arm))
-                                 (arm-obstacles projection arm :ignored ignored)))))
+                                 (arm-obstacles projection arm)))))

@@ -1,8 +1,8 @@
 ;;;; Placing and parking: actions of type placing and parking-arms.
 ;;;;
 ;;;; What an arm holds is brought over its target, put down to a little above it, and let go: how it
-;;;; comes to rest is Bullet's business.  It is turned as the target's pose is, or, if the arm cannot
-;;;; do that, about the vertical as little as possible.
+;;;; comes to rest is Bullet's business.  It is turned as the target's pose is, or, if the arm
+;;;; cannot do that, about the vertical as little as possible.
 
 (in-package #:discrepancy-finder.projection)
 
@@ -74,8 +74,8 @@ possible."
 
 (defun put-down (projection arm item reach)
   "Lower ITEM, which ARM holds, along the line of REACH until it touches something or is there.
-Signals MANIPULATION-GOAL-NOT-REACHED if it touches something before, GRIPPER-CLOSED-COMPLETELY if it
-is lost."
+Signals MANIPULATION-GOAL-NOT-REACHED if it touches something before, GRIPPER-CLOSED-COMPLETELY if
+it is lost."
   (let ((body (item-body projection item)))
     (multiple-value-bind (reason bodies)
         (run-smoothly projection (with-present-grippers projection (reach-line reach))
