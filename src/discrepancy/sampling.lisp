@@ -11,15 +11,19 @@
 
 (defstruct (parameter (:constructor make-parameter (body axis min max &optional meaning))
                       (:copier nil))
-  "The coordinate AXIS of BODY between MIN and MAX (m, rad); or, where BODY is NIL, the tolerance AXIS
-of the scene, with the MEANING that the scene tells."
+  "The coordinate AXIS of BODY between MIN and MAX (m, rad); or, where BODY is NIL, the tolerance
+AXIS of the scene, with the MEANING that the scene tells."
   (body nil :type (or null keyword) :read-only t)
   (axis nil :type keyword :read-only t)
   (min 0d0 :type double-float :read-only t)
   (max 0d0 :type double-float :read-only t)
   (meaning nil :type (or null string) :read-only t))
 
-(setf (documentation 'parameter-min 'function)
+(setf (documentation 'parameter-body 'function)
+      "Return the name (a keyword) of the body whose coordinate a parameter is, or NIL."
+      (documentation 'parameter-axis 'function)
+      "Return the coordinate (:x, :y, :z, :yaw), or the tolerance's name, that a parameter is."
+      (documentation 'parameter-min 'function)
       "Return the least value of a parameter (m, rad, or the unit of the tolerance)."
       (documentation 'parameter-max 'function)
       "Return the bound (m, rad) that the values of a parameter do not reach.")
@@ -82,8 +86,9 @@ are none."
         collect (make-parameter nil name low high meaning)))
 
 (defun initial-parameters (domain trace)
-  "Return the list of the PARAMETERs of DOMAIN that are sampled for TRACE: coordinates of bodies, then
-tolerances.  Signals SAMPLING-ERROR if the initial state of TRACE says of a body that it is nowhere, or that an item is held."
+  "Return the list of the PARAMETERs of DOMAIN that are sampled for TRACE: coordinates of bodies,
+then tolerances.  Signals SAMPLING-ERROR if the initial state of TRACE says of a body that it is
+nowhere, or that an item is held."
   (let ((state (symbolic:trace-initial-state trace)))
     (dolist (observer (domain-observers domain))
       (when (and (attachment-p observer) (ec:fluent-value state (attachment-atom observer)))
