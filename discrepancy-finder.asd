@@ -323,7 +323,9 @@ The environment variable CXX names another compiler than g++."))
   :pathname "src/discrepancy/"
   :serial t
   :components ((:file "package") (:file "conditions")
-               (:file "random") (:file "abstraction") (:file "define-abstraction")
+               (:file "random") (:file "samplers") (:file "regions") (:file "observers")
+               (:file "abstraction") (:file "parsing") (:file "parsing-observers")
+               (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "scene-runs")
                (:file "replay") (:file "replay-file")))
@@ -397,16 +399,23 @@ The environment variable CXX names another compiler than g++."))
                              (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
-                             (:file "worlds") (:file "navigation") (:file "seeing")
-                             (:file "manipulation") (:file "manipulation-kitchen")
-                             (:file "actions-symbolic") (:file "pictures")))
+                             (:file "urdf-errors") (:file "urdf") (:file "meshes") (:file "robots") (:file "scenes")
+                             (:file "actions-kitchen")
+                             (:file "worlds") (:file "navigation")
+                             (:file "seeing") (:file "manipulation")
+                             (:file "manipulation-kitchen") (:file "actions-symbolic")
+                             (:file "pictures")))
+               (:module "models"
+                :serial t
+                :components ((:file "kitchen-theory")))
                (:module "statistics"
                 :serial t
                 :components ((:file "normal") (:file "distributions") (:file "least-squares")
                              (:file "paper-rule") (:file "guaranteed-rules")))
                (:module "discrepancy"
                 :serial t
-                :components ((:file "random") (:file "abstraction") (:file "search")
+                :components ((:file "random") (:file "samplers") (:file "abstraction")
+                             (:file "regions") (:file "search")
                              (:file "replay")
                              (:file "table-top") (:file "tolerances")))
                (:module "kitchen" :pathname "projection/" :serial t
@@ -425,4 +434,5 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "evaluator")
                (:file "household") (:file "clingo") (:file "bounded") (:file "progression")
-               (:file "exploration") (:file "transport") (:file "benchmarks")))
+               (:file "exploration") (:file "calibration") (:file "transport")
+               (:file "benchmarks")))

@@ -133,4 +133,5 @@ by pair."
   (print-evaluator-benchmarks stream)
   (print-bounded-benchmarks stream)
   (print-progression-benchmarks stream)
-  (print-exploration-benchmarks stream))
+  (print-exploration-benchmarks stream)
+  (print-calibration stream))

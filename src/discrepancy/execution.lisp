@@ -245,6 +245,7 @@ bits, provided that the plan does not read global variables that it writes."
   (with-open-projection (projection (projection:make-projection
                                      (domain-scene domain)
                                      :poses (sample-poses (domain-scene domain) sample)
+                                     :joints (sample-joints sample)
                                      :parameters (sample-tolerances sample)
                                      :fidelity fidelity))
     ;; What is built into something else is invalid, however it comes apart.

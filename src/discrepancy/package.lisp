@@ -15,10 +15,10 @@ search, replay.")
    ;; domains: theory, scene, abstraction, action bindings
    #:define-abstraction #:domain #:domain-scene #:domain-file #:domain-regions
    #:domain-with-parameters #:load-domain
-   #:region #:region-name #:region-bounds #:inside-region-p
+   #:region #:region-name #:region-description #:region-bounds #:inside-region-p
    #:discrete-state #:observed-fluents
    ;; random numbers
-   #:philox #:content-hash #:unit-float
+   #:philox #:content-hash #:unit-float #:unit-point #:*samplers*
    ;; samples
    #:parameter #:parameter-name #:parameter-min #:parameter-max
    #:parameter-body #:parameter-axis #:tolerance-p

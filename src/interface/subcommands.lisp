@@ -32,6 +32,8 @@
      (("delta") :type string
       :documentation "part of the region that may stay discrepant, for the last two rules (0.05)")
      (("seed") :type integer :documentation "seed of the samples (1)")
+     (("sampler") :type string
+      :documentation "independent, stratified, sobol or corners (independent)")
      (("budget") :type integer :documentation "largest number of simulations (1000)")
      (("set") :type string :list t :optional t
       :documentation "scene parameter, as name=number; may be repeated")
@@ -43,6 +45,7 @@
                        :parameters (parameter-arguments (getf options :set))
                        (append
                         (loop for (key name) in '((:constraint "--constraint") (:rule "--rule")
+                                                  (:sampler "--sampler")
                                                   (:execution "--execution")
                                                   (:compare "--compare"))
                               for text = (getf options key)

@@ -126,15 +126,17 @@ is farthest from those before."
                               (beside-p low high other-low other-high *item-gap*))))))))
 
 (defun places-for (projection name part points)
-  "Return the poses of the item NAME on POINTS of PART that are free, the nearest first."
+  "Return the lazy list of the poses of the item NAME on POINTS of PART that are free, the nearest
+first."
   (let ((base (base-pose (projection-robot projection))))
-    (remove-if-not (lambda (pose) (free-place-p projection name pose part))
-                   (mapcar (lambda (point) (pose-standing-on projection name point))
-                           (stable-sort (copy-list points) #'<
-                                        :key (lambda (point) (planar-distance base point)))))))
+    (prolog:lazy-filter (lambda (pose) (free-place-p projection name pose part))
+                        (prolog:lazy-mapcar
+                         (lambda (point) (pose-standing-on projection name point))
+                         (stable-sort (copy-list points) #'<
+                                      :key (lambda (point) (planar-distance base point)))))))
 
 (defun part-poses (projection location)
-  "Return the poses that the location designator LOCATION means by :on or :in, a list."
+  "Return the lazy list of the poses that the location designator LOCATION means by :on or :in."
   (let* ((part (location-part projection location))
          (points (and part (part-points projection part
                                         (if (plan:desig-prop-value location :in) #'min #'max))))
