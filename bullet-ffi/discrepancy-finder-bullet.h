@@ -243,6 +243,9 @@ DFB_API int dfb_inverse_kinematics(dfb_world *world, int mechanism, int link, co
                                    double *solutions, double *error);
 
 /* Motions of a mechanism */
+/* Let the motion that is begun next take the joints on a smooth curve through count positions, one
+ * set after the other, between start and goal. */
+DFB_API int dfb_motion_via(dfb_world *world, int mechanism, int count, const double *positions);
 /* Begin a motion that takes the joints straight from start to goal (joints that are not at start
  * are put there first, at rest; start NULL: where they are; goal NULL: start) and, with base_moves
  * 1, the base along bases.  Without fast each step steps the world; with fast 1 steps that can

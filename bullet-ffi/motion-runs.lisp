@@ -15,6 +15,8 @@
 
 (in-package #:discrepancy-finder.bullet)
 
+(define-raw %motion-via "dfb_motion_via" :int
+  (world :pointer) (mechanism :int) (count :int) (positions :pointer))
 (define-raw %motion-begin "dfb_motion_begin" :int
   (world :pointer) (mechanism :int) (start :pointer) (goal :pointer) (base-moves :int)
   (fast :int) (contact-distance :double) (watched-count :int) (watched :pointer)
@@ -33,6 +35,17 @@
              (cffi:with-pointer-to-vector-data (,pointer (the positions ,data))
                (,function ,pointer))
              (,function (cffi:null-pointer)))))))
+
+(defun set-via (mechanism positions-list)
+  "Let the motion that is begun next go through the vectors in POSITIONS-LIST."
+  (dolist (positions positions-list)
+    (check-positions mechanism positions 'run-motion))
+  (when positions-list
+    (let ((all (apply #'concatenate 'positions positions-list)))
+      (cffi:with-pointer-to-vector-data (data all)
+        (invoke ('run-motion pointer (mechanism-world mechanism))
+            (%motion-via pointer (mechanism-id mechanism) (length positions-list) data)
+          (:bad-number "a position on the way is not finite"))))))
 
 (defun begin-motion (mechanism start goal base-moves fidelity contact-distance watched obstacles)
   (let ((world (mechanism-world mechanism)))
@@ -86,12 +99,14 @@ contact, if any."
     (fail 'run-motion "the ~a are no vector of ~d double floats for each of ~d steps"
           thing size steps)))
 
-(defun run-motion (mechanism &key steps bases fractions start goal (fidelity :fast) watched
-                               obstacles (contact-distance 0))
+(defun run-motion (mechanism &key steps bases fractions start through goal (fidelity :fast)
+                               watched obstacles (contact-distance 0))
   "Move MECHANISM for a number of STEPS.  BASES has the pose of its base after each step, seven
 double floats each (see POSE-COMPONENTS), or is NIL if the base stays; FRACTIONS the part of the
 straight way of all joints from the positions START to GOAL, one double float each, or is NIL if the
 joints stay.  START is by default where they are; joints that are not at START are put there first.
+With THROUGH, a list of vectors of positions, the joints take a smooth curve through these, each
+piece of which is the same part of the way.
 
 WATCHED and OBSTACLES are lists of bodies.  A step in which a watched body (of a link, or attached
 to one) would come as near as CONTACT-DISTANCE (m) to an obstacle is not done, and ends the motion:
@@ -109,6 +124,7 @@ not finite, a vector too short or a body of another world."
   (check-steps fractions 1 steps "fractions")
   (when start (check-positions mechanism start 'run-motion))
   (when goal (check-positions mechanism goal 'run-motion))
+  (set-via mechanism through)
   (let ((world (mechanism-world mechanism)))
     (begin-motion mechanism start goal (not (null bases)) fidelity
                   (number-of "the contact distance" contact-distance 'run-motion :not-negative)

@@ -19,14 +19,26 @@
              (retry))))
       (perform (a motion (type going) (pose ?pose))))))
 
+(def-cram-function find-on-the-workspace (?type)
+  "Look at the middle of the workspace for an object of ?TYPE, then to both sides.  Return it."
+  (let ((?place (make-pose -2.1 0 0.9))
+        (?other-places (list (make-pose -2.1 0.4 0.9) (make-pose -2.1 -0.4 0.9))))
+    (with-failure-handling
+        ((perception-object-not-found ()
+           (when ?other-places
+             (setf ?place (pop ?other-places))
+             (retry))))
+      (perform (a motion (type looking) (pose ?place)))
+      (perform (a motion (type detecting) (object (an object (type ?type))))))))
+
 (def-cram-function take-from-the-workspace (?type ?arm)
-  "Stand at the workspace, look for an object of ?TYPE on it, pick it up with ?ARM and return it."
+  "Stand at the workspace, find an object of ?TYPE on it, pick it up with ?ARM, step back from the
+workspace and return the object."
   (stand-at (make-pose -1.4 0.2 0 :yaw pi))
-  (let ((?place (make-pose -2.1 0 0.9)))
-    (perform (a motion (type looking) (pose ?place)))
-    (let ((?object (perform (a motion (type detecting) (object (an object (type ?type)))))))
-      (perform (an action (type picking-up) (object ?object) (arm ?arm)))
-      ?object)))
+  (let ((?object (find-on-the-workspace ?type)))
+    (perform (an action (type picking-up) (object ?object) (arm ?arm)))
+    (stand-at (make-pose -1.0 0.2 0 :yaw pi))
+    ?object))
 
 (def-top-level-cram-function carry-to-the-table (&optional (?type :milk) (?arm :left))
   "Pick up an object of ?TYPE from the workspace, carry it to the table and place it there."

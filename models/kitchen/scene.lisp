@@ -24,8 +24,8 @@
    (camera-vertical-field-of-view 0.8 "from the lower to the upper side of the picture, rad")
    (visible-fraction 0.5 "part of an item's surface that must be seen to detect it, 0 to 1"))
   (:tolerances
-   (grip-force 30 50 "of each finger, N")
-   (finger-friction 0.5 0.7 "of the finger pads on what they hold")
+   (grip-force 15 35 "of each finger, N")
+   (finger-friction 0.4 0.6 "of the finger pads on what they hold")
    (base-stopping-error-x -0.01 0.01 "along the base's x axis, m")
    (base-stopping-error-y -0.01 0.01 "along the base's y axis, m")
    (base-stopping-error-yaw -0.02 0.02 "rad")

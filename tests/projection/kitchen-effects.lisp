@@ -56,7 +56,7 @@ arrive, :lost, or :carried."
   (let ((counts (list :not-lifted 0 :stopped 0 :lost 0 :carried 0)))
     (loop for index below (if *long* 1000 120)
           do (incf (getf counts (carry (if (evenp index) :milk :cereal) index))))
-    (destructuring-bind (&key not-lifted stopped lost carried) counts
+    (destructuring-bind (&key (not-lifted 0) (stopped 0) (lost 0) (carried 0)) counts
       (is (< (+ not-lifted stopped) (/ (+ lost carried) 5)) "~a" counts)
       (is (<= 1/100 (/ lost (+ lost carried)) 1/5) "~a" counts))))
 

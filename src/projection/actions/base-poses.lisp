@@ -91,8 +91,8 @@ after all that are not."
 ;;; What is to be reached or seen
 
 (defun handle-place (projection thing)
-  "Return the pose that the middle of the handle of the container that THING, a designator, means has
-while that is closed, x being the way in which it opens; NIL if it means none."
+  "Return the pose of the middle of the handle of the container that THING, a designator, means, as
+it is while that is closed, x being the way in which it opens; NIL if THING means none."
   (let ((container (and (typep thing 'plan:object-designator)
                         (first (find-containers projection thing)))))
     (when container

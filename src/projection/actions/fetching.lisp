@@ -54,7 +54,8 @@ that is not NIL, from ?ROBOT-LOCATION or another place where this can be reached
     (with-retry-counters ((relocations 5))
       (with-failure-handling
           (((or navigation-low-level-failure navigation-high-level-failure
-                looking-high-level-failure manipulation-low-level-failure)
+                looking-high-level-failure manipulation-goal-not-reached
+                manipulation-pose-unreachable)
                (failure)
              (do-retry relocations
                (let ((next (next-location ?robot-location)))
@@ -71,7 +72,7 @@ that is not NIL, from ?ROBOT-LOCATION or another place where this can be reached
 
 (def-cram-function deliver (?object ?target ?robot-location ?place-action)
   "Bring the object ?OBJECT, which the robot holds, to the location ?TARGET; where this does not
-succeed, to the next two solutions of ?TARGET."
+succeed, to the next two solutions of ?TARGET.  What was lost on the way is not looked for."
   (with-retry-counters ((other-targets 2))
     (with-failure-handling
         ((object-undeliverable ()
@@ -80,5 +81,8 @@ succeed, to the next two solutions of ?TARGET."
                (when next
                  (setf ?target next
                        ?robot-location nil)
-                 (retry))))))
+                 (retry)))))
+         (gripper-low-level-failure (failure)
+           (fail 'object-undeliverable
+                 :object ?object :description (failure-description failure))))
       (deliver-to ?object ?target ?robot-location ?place-action))))

@@ -14,6 +14,10 @@
 (defparameter *item-gap* 0.03d0
   "How far (m) an item is put from others and from an edge, at the least.")
 
+(defparameter *setting-gap* 6d-3
+  "How far (m) above where it is going to stand an item is let go: where it was seen is not exactly
+where it is in the hand.")
+
 (defparameter *places-to-look-at* 10
   "So many places of a part are looked at.")
 
@@ -99,7 +103,7 @@ is farthest from those before."
                                            (pose-qz upright) (pose-qw upright))))
          (height (placed-support (bullet:body-shape (item-body projection name)) turned
                                  '(0 0 -1))))
-    (quaternion-pose (pose-x point) (pose-y point) (+ (pose-z point) height 1d-3)
+    (quaternion-pose (pose-x point) (pose-y point) (+ (pose-z point) height *setting-gap*)
                      (pose-qx turned) (pose-qy turned) (pose-qz turned) (pose-qw turned))))
 
 (defun beside-p (low high other-low other-high gap)
@@ -122,15 +126,17 @@ is farthest from those before."
                               (beside-p low high other-low other-high *item-gap*))))))))
 
 (defun places-for (projection name part points)
-  "Return the poses of the item NAME on POINTS of PART that are free, the nearest first."
+  "Return the lazy list of the poses of the item NAME on POINTS of PART that are free, the nearest
+first."
   (let ((base (base-pose (projection-robot projection))))
-    (remove-if-not (lambda (pose) (free-place-p projection name pose part))
-                   (mapcar (lambda (point) (pose-standing-on projection name point))
-                           (stable-sort (copy-list points) #'<
-                                        :key (lambda (point) (planar-distance base point)))))))
+    (prolog:lazy-filter (lambda (pose) (free-place-p projection name pose part))
+                        (prolog:lazy-mapcar
+                         (lambda (point) (pose-standing-on projection name point))
+                         (stable-sort (copy-list points) #'<
+                                      :key (lambda (point) (planar-distance base point)))))))
 
 (defun part-poses (projection location)
-  "Return the poses that the location designator LOCATION means by :on or :in, a list."
+  "Return the lazy list of the poses that the location designator LOCATION means by :on or :in."
   (let* ((part (location-part projection location))
          (points (and part (part-points projection part
                                         (if (plan:desig-prop-value location :in) #'min #'max))))

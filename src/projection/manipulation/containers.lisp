@@ -1,16 +1,16 @@
 ;;;; Containers: actions of type opening and closing with an object.
 ;;;;
-;;;; A container is what a movable joint of a fixture carries: a drawer, a door.  A hand takes hold of
-;;;; its handle, the link fixed to it that has "handle" in its name, and moves as the joint lets it.
+;;;; A container is what a movable joint of a fixture carries: a drawer, a door.  A hand takes hold
+;;;; of its handle, the link fixed to it that has "handle" in its name, and moves as the joint lets it.
 ;;;; The motor of the joint follows the hand, with the force that the fingers can bear; the world is
-;;;; stepped all along, so that the contents come along by friction and by the walls, and whatever is
-;;;; in the way stops the container.
+;;;; stepped all along, so that the contents come along by friction and by the walls, and whatever
+;;;; is in the way stops the container.
 
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (container (:copier nil))
-  "The movable part of a FIXTURE (a name): its JOINT in the world, the joint of the model URDF-JOINT,
-the link HANDLE of the model."
+  "The movable part of a FIXTURE (a name): its JOINT in the world, the joint of the model
+URDF-JOINT, the link HANDLE of the model."
   (fixture nil :type keyword :read-only t)
   (joint nil :read-only t)
   (urdf-joint nil :type urdf-joint :read-only t)
@@ -137,14 +137,10 @@ which that moves.")
 (defun haul (projection container way distance)
   "Move along WAY, whose configurations are equally far apart, while the joint of CONTAINER
 follows over DISTANCE.  Return NIL, or why it was not done, a string."
-  (let* ((robot (projection-robot projection))
-         (joint (container-joint container))
+  (let* ((joint (container-joint container))
          (force (* 2 (projection-parameter projection :finger-friction)
                    (projection-parameter projection :grip-force)))
          (before (bullet:joint-position joint))
-         (knots (coerce (cons (copy-seq (joint-positions robot))
-                              (with-present-grippers projection way))
-                        'vector))
          (body (container-body projection container)))
     (flet ((follow-hand (last count)
              (bullet:set-motor joint
@@ -158,13 +154,12 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
                     "the hand has slipped off the handle"))))
       (unwind-protect
            (multiple-value-bind (problem bodies)
-               (run-curve projection
-                          (curve-function knots (loop repeat (length way) collect 1))
-                          (profile-fractions (make-profile (abs distance) *container-speed*
-                                                           *container-acceleration*))
-                          :before #'follow-hand :after #'slipped
-                          :watched (watched-bodies projection :allow-hand)
-                          :obstacles (remove body (solid-bodies projection)))
+               (run-in-parts projection (with-present-grippers projection way)
+                             (profile-fractions (make-profile (abs distance) *container-speed*
+                                                              *container-acceleration*))
+                             :before #'follow-hand :after #'slipped
+                             :watched (watched-bodies projection :allow-hand)
+                             :obstacles (remove body (solid-bodies projection)))
              (if (eq problem :contact) (contact-text bodies) problem))
         (bullet:set-motor joint 0d0 (or (urdf-joint-friction (container-urdf-joint container))
                                         0d0))))))

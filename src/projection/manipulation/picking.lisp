@@ -33,7 +33,7 @@
     (if pose (pose-position pose) '(0d0 0d0 0d0))))
 
 (defun expected-parameter (projection name)
-  "Return the value of the parameter NAME as far as the robot knows: in the middle of its tolerance."
+  "Return the value of the parameter NAME as far as the robot knows: the middle of its tolerance."
   (let ((tolerance (assoc name (scene-tolerances (projection-scene projection)))))
     (if tolerance
         (/ (+ (second tolerance) (third tolerance)) 2)
@@ -85,8 +85,8 @@ first.  SIDES is a list of the sides that are allowed, or NIL for all."
       (subseq sorted 0 (min *grasps-tried* (length sorted))))))
 
 (defun free-arms (projection names pose)
-  "Return the arms of PROJECTION's robot that hold nothing, the one nearest to POSE first; only those
-with NAMES unless that is NIL."
+  "Return the arms of PROJECTION's robot that hold nothing, the one nearest to POSE first; only
+those with NAMES unless that is NIL."
   (flet ((distance (arm)
            (let ((way (mapcar #'- (pose-position pose)
                               (shoulder-position projection arm
@@ -181,8 +181,8 @@ sides and of lists (side x y z), with a point of the item; NIL for anywhere."
       item)))
 
 (defun note-relation (projection arm relation)
-  "Note that the tool of ARM has the pose RELATION in the frame of what it holds, as far as the robot
-knows."
+  "Note that the tool of ARM has the pose RELATION in the frame of what it holds, as far as the
+robot knows."
   (setf (getf (projection-memory projection) (arm-name arm)) relation))
 
 (defun held-relation (projection arm)

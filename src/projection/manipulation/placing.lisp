@@ -1,8 +1,8 @@
 ;;;; Placing and parking: actions of type placing and parking-arms.
 ;;;;
 ;;;; What an arm holds is brought over its target, put down to a little above it, and let go: how it
-;;;; comes to rest is Bullet's business.  It is turned as the target's pose is, or, if the arm cannot
-;;;; do that, about the vertical as little as possible.
+;;;; comes to rest is Bullet's business.  It is turned as the target's pose is, or, if the arm
+;;;; cannot do that, about the vertical as little as possible.
 
 (in-package #:discrepancy-finder.projection)
 
@@ -47,14 +47,46 @@ tool, before, before)."
           for above = (moved tool (list 0d0 0d0 lift))
           collect (list goal tool above above))))
 
+(defun find-placing (projection arm target)
+  "Return the REACH of ARM that puts what it holds at TARGET, turned as little as possible.  Signals
+MANIPULATION-POSE-UNREACHABLE and MANIPULATION-GOAL-NOT-REACHED."
+  (let ((reason :unreachable))
+    (dolist (candidate (placing-candidates projection arm target)
+                       (fail-to-reach reason (list arm) "the target"))
+      (multiple-value-bind (reach why) (find-reach projection arm (list candidate))
+        (when reach (return reach))
+        (when (eq why :collision) (setf reason why))))))
+
 (defun retreat (projection arm)
-  "Take the open hand of ARM straight back from where it is, as far as that is possible."
+  "Take the open hand of ARM straight back from where it is, or else upwards, as far as that is
+possible."
   (let* ((tool (tool-pose projection arm))
          (start (joint-positions (projection-robot projection)))
-         (way (loop for distance in '(0.12d0 0.08d0 0.04d0)
-                      thereis (straight-way projection arm start tool
-                                            (advanced tool (- distance))))))
-    (follow projection arm way :watch :allow-hand :smoothly t)))
+         (way (loop for end in (list (advanced tool -0.12d0) (advanced tool -0.08d0)
+                                     (moved tool '(0d0 0d0 0.1d0)) (advanced tool -0.04d0))
+                    for way = (straight-way projection arm start tool end)
+                    when (and way (free-p projection arm (first (last way)))) return way)))
+    ;; Touching something ends it: what was to be done is done.
+    (run-smoothly projection (with-present-grippers projection way) :watch :allow-hand)))
+
+(defparameter *standing-tolerance* 0.02d0
+  "What touches something within this distance (m) of where it is to be put stands there.")
+
+(defun put-down (projection arm item reach)
+  "Lower ITEM, which ARM holds, along the line of REACH until it touches something or is there.
+Signals MANIPULATION-GOAL-NOT-REACHED if it touches something before, GRIPPER-CLOSED-COMPLETELY if
+it is lost."
+  (let ((body (item-body projection item)))
+    (multiple-value-bind (reason bodies)
+        (run-smoothly projection (with-present-grippers projection (reach-line reach))
+                      :watch (cons body (watched-bodies projection :allow-hand)))
+      (check-lifted projection arm item)
+      (when reason
+        (let ((left (mapcar #'- (pose-position (reach-tool reach))
+                            (pose-position (tool-pose projection arm)))))
+          (unless (and (member body bodies)
+                       (<= (sqrt (dot left left)) *standing-tolerance*))
+            (fail-to-move arm bodies)))))))
 
 (defun place (projection designator)
   "Place what the robot holds as DESIGNATOR, an action, says; return the item's name."
@@ -64,14 +96,10 @@ tool, before, before)."
       (misunderstood designator "an action of type placing needs a target with a pose"))
     (let* ((arm (placing-arm projection designator))
            (item (held-item projection (arm-name arm))))
-      (multiple-value-bind (reach reason)
-          (find-reach projection arm (placing-candidates projection arm target))
-        (unless reach
-          (fail-to-reach reason (list arm) "the target"))
+      (let ((reach (find-placing projection arm target)))
         (follow projection arm (reach-way reach))
         (check-lifted projection arm item)
-        (follow projection arm (reach-line reach) :watch :allow-hand :smoothly t)
-        (check-lifted projection arm item)
+        (put-down projection arm item reach)
         (open-gripper projection arm)
         (settle projection)
         (retreat projection arm)
@@ -88,33 +116,35 @@ tool, before, before)."
     (nearest-turns (projection-robot projection) (arm-joints arm) positions
                    (joint-positions (projection-robot projection)))))
 
-(defparameter *carrying-height* 1.05d0
-  "The height (m) at which something is carried, if it is not higher already.")
+(defparameter *carrying-height* 0.95d0
+  "The height (m) of a hand that carries something, at least, if that is possible: above tables.")
+
+(defun carrying-poses (projection arm)
+  "Return poses of the tool of ARM in front of the robot in which it holds what it holds as upright
+as now."
+  (let* ((tool (tool-pose projection arm))
+         (base (base-pose (projection-robot projection)))
+         (parked (compose (inverse base)
+                          (tool-pose projection arm (parked-positions-of projection arm))))
+         (side (if (plusp (pose-y parked)) 1 -1)))
+    (loop for height in (remove-duplicates (list (max (pose-z tool) *carrying-height*)
+                                                 (pose-z tool)))
+          append (loop for angle in (turns)
+                       append (loop for (x y) in '((0.45 0.2) (0.5 0.1) (0.5 0.3) (0.55 0.2)
+                                                   (0.6 0.2))
+                                    for place = (compose base (make-pose x (* side y) 0))
+                                    collect (moved (turned-about-vertical tool angle)
+                                                   (list (- (pose-x place) (pose-x tool))
+                                                         (- (pose-y place) (pose-y tool))
+                                                         (- height (pose-z tool)))))))))
 
 (defun carrying-positions (projection arm)
-  "Return positions in which ARM holds what it holds as upright as it does now, where its tool is
-when it is parked or in front of the robot; NIL if there are none."
-  (let* ((present (joint-positions (projection-robot projection)))
-         (tool (tool-pose projection arm))
-         (base (base-pose (projection-robot projection)))
-         (side (if (plusp (pose-y (compose (inverse base) (tool-pose projection arm
-                                                                     (parked-positions-of
-                                                                      projection arm)))))
-                   1 -1))
-         (height (pose-z tool)))
-    ;; Above what stands in the way of the base, if the arm can.
-    (loop for height in (remove-duplicates (list (max height *carrying-height*) height))
-          do (loop for angle in (turns)
-                   do (loop for (x y) in '((0.45 0.2) (0.5 0.1) (0.5 0.3) (0.55 0.2) (0.6 0.2))
-                            for place = (compose base (make-pose x (* side y) 0))
-                            for pose = (moved (turned-about-vertical tool angle)
-                                              (mapcar #'- (list (pose-x place) (pose-y place)
-                                                                height)
-                                                      (pose-position tool)))
-                            do (dolist (positions (solve projection arm pose present
-                                                         :count 2 :restarts 4))
-                                 (when (free-p projection arm positions)
-                                   (return-from carrying-positions positions))))))))
+  "Return positions of ARM in one of its CARRYING-POSES, or NIL if none is possible."
+  (let ((present (joint-positions (projection-robot projection))))
+    (dolist (pose (carrying-poses projection arm) nil)
+      (let ((positions (first (solve projection arm pose present :restarts 1))))
+        (when (and positions (free-p projection arm positions))
+          (return positions))))))
 
 (defun joints-of-arm (projection arm)
   "Return the list of the positions (m or rad) of the joints of ARM."

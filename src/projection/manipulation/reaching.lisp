@@ -16,6 +16,9 @@ is what the plan is for, as it was given to FIND-REACH."
   (line '() :type list :read-only t)
   (leaving '() :type list :read-only t))
 
+(defparameter *efforts* '((:count 1 :restarts 2) (:count 4 :restarts 6))
+  "How hard configurations are looked for, at first and if there are none then.")
+
 (defun arm-length (projection arm)
   "Return how far (m) the tool of ARM gets from its first joint, at the most."
   (let ((frames (robot-frames (projection-robot projection))))
@@ -33,49 +36,82 @@ is what the plan is for, as it was given to FIND-REACH."
   (let ((way (mapcar #'- (pose-position pose) (shoulder-position projection arm positions))))
     (<= (sqrt (dot way way)) (arm-length projection arm))))
 
-(defun reach-from (projection arm goal tool begin end start ignored target)
-  "Return a REACH of ARM with its tool at TOOL, coming from BEGIN and leaving to END, a pose or a
-list of poses on the way, by a configuration near START; or NIL and why not, :UNREACHABLE or
-:COLLISION."
-  (let ((reason :unreachable))
-    (dolist (there (solve projection arm tool start :count *solutions* :restarts 6)
-                   (values nil reason))
-      (let ((back (straight-way projection arm there tool begin))
-            (leaving (if (listp end)
-                         (way-through projection arm there end)
-                         (straight-way projection arm there tool end))))
-        (when (and back leaving
-                   ;; From a handle the hand has to get away where it has come to.
-                   (or (not (listp end))
-                       (straight-way projection arm (first (last leaving)) (first (last end))
-                                     (advanced (first (last end)) (- *approach-distance*)))))
-          (setf reason :collision)
-          (let ((before (first (last back))))
-            (when (and (free-p projection arm there :ignored (append target ignored))
-                       (free-p projection arm before :ignored ignored)
-                       (free-p projection arm (first (last leaving))
-                               :ignored (append target ignored)))
-              (let ((way (plan-way projection arm (reaching-positions projection arm) before
-                                   :ignored ignored)))
-                (when way
-                  (return (values (make-reach :arm arm :goal goal :tool tool :way way
-                                              :line (append (rest (reverse back)) (list there))
-                                              :leaving leaving)
-                                  nil)))))))))))
+(defparameter *support-distance* 0.015d0
+  "What is to be put down must be free this much (m) higher; below is what it is put on.")
 
-(defun find-reach (projection arm candidates &key ignored target)
-  "Return the first REACH of ARM that there is for CANDIDATES, lists of a goal and the poses of the
-tool there, before and afterwards; or NIL and why there is none, :UNREACHABLE or :COLLISION.  The
-bodies IGNORED may be touched all the time, those of TARGET from the straight line on."
+(defun carried-free-p (projection arm positions tool)
+  "Return true if what ARM holds would touch nothing a little above where it is at POSITIONS, with
+the tool at the pose TOOL; or if it holds nothing."
+  (or (null (carried-bodies projection arm))
+      (let ((above (first (solve projection arm (moved tool (list 0d0 0d0 *support-distance*))
+                                 positions :restarts 0))))
+        (and above (free-p projection arm above)))))
+
+(defun lines-from (projection arm there candidate)
+  "Return the ways of ARM from the configuration THERE back to where CANDIDATE comes from and on to
+where it leaves to; or NIL if there are none."
+  (destructuring-bind (goal tool begin end) candidate
+    (declare (ignore goal))
+    (let ((back (straight-way projection arm there tool begin))
+          (leaving (if (listp end)
+                       (way-through projection arm there end)
+                       (straight-way projection arm there tool end))))
+      (and back leaving
+           ;; From a handle the hand has to get away where it has come to.
+           (or (not (listp end))
+               (let ((last (first (last end))))
+                 (straight-way projection arm (first (last leaving)) last
+                               (advanced last (- *approach-distance*)))))
+           (values back leaving)))))
+
+(defun lines-free-p (projection arm there candidate target back leaving)
+  "Return true if ARM touches nothing but the bodies TARGET on the ways that LINES-FROM returns, and
+nothing at all where these begin."
+  (destructuring-bind (goal tool begin end) candidate
+    (declare (ignore goal begin))
+    (flet ((free-all-p (ways &rest ignored)
+             (loop for positions in ways
+                   always (free-p projection arm positions :ignored (append target ignored)))))
+      (and (free-p projection arm (first (last back)))
+           (free-p projection arm there :ignored target :carried nil)
+           (carried-free-p projection arm there tool)
+           (free-all-p (butlast back))
+           ;; What is in a container moves with it.
+           (apply #'free-all-p leaving
+                  (and (listp end) (mapcar #'cdr (projection-items projection))))))))
+
+(defun reach-from (projection arm candidate start target effort)
+  "Return the REACH of ARM for CANDIDATE, by a configuration near START; or NIL and why there is none.
+EFFORT is a list of keyword arguments of SOLVE."
   (let ((reason :unreachable))
-    (dolist (height (or (torso-heights projection arm) '(nil)) (values nil reason))
-      (let ((start (reaching-positions projection arm height)))
-        (loop for (goal tool begin end) in candidates
-              do (when (within-length-p projection arm start tool)
-                   (multiple-value-bind (reach why)
-                       (reach-from projection arm goal tool begin end start ignored target)
-                     (when reach (return-from find-reach reach))
-                     (when (eq why :collision) (setf reason why)))))))))
+    (dolist (there (apply #'solve projection arm (second candidate) start effort)
+                   (values nil reason))
+      (multiple-value-bind (back leaving) (lines-from projection arm there candidate)
+        (when back
+          (setf reason :collision)
+          (let ((way (and (lines-free-p projection arm there candidate target back leaving)
+                          (plan-way projection arm (reaching-positions projection arm)
+                                    (first (last back))))))
+            (when way
+              (return (make-reach :arm arm :goal (first candidate) :tool (second candidate)
+                                  :way way :line (append (rest (reverse back)) (list there))
+                                  :leaving leaving)))))))))
+
+(defun find-reach (projection arm candidates &key target)
+  "Return the first REACH of ARM that there is for CANDIDATES, lists of a goal, the pose of the tool
+there, the pose from where the hand comes, and the pose to where it leaves or a list of poses on the
+way there; or NIL and why there is none, :UNREACHABLE or :COLLISION.  The bodies TARGET may be touched
+from where the hand comes on."
+  (let ((reason :unreachable) (heights (or (torso-heights projection arm) '(nil))))
+    (dolist (effort *efforts* (values nil reason))
+      (dolist (height heights)
+        (let ((start (reaching-positions projection arm height)))
+          (dolist (candidate candidates)
+            (when (within-length-p projection arm start (second candidate))
+              (multiple-value-bind (reach why)
+                  (reach-from projection arm candidate start target effort)
+                (when reach (return-from find-reach reach))
+                (when (eq why :collision) (setf reason why))))))))))
 
 (defun fail-to-reach (reason arms what)
   "Signal the failure for REASON, as FIND-REACH returns it."
@@ -97,6 +133,12 @@ bodies IGNORED may be touched all the time, those of TARGET from the straight li
                       (setf (aref positions (arm-gripper arm))
                             (aref present (arm-gripper arm))))))))
 
+(defun fail-to-move (arm bodies)
+  "Signal that ARM has stopped because the two BODIES would have touched."
+  (plan:fail 'plan:manipulation-goal-not-reached
+             :description (format nil "the ~(~a~) arm stopped where ~a" (arm-name arm)
+                                  (contact-text bodies))))
+
 (defun follow (projection arm way &key (watch :all) ignore smoothly)
   "Move ARM along WAY, without stopping at its configurations if SMOOTHLY is true.  Signals
 MANIPULATION-GOAL-NOT-REACHED where something is touched."
@@ -104,7 +146,4 @@ MANIPULATION-GOAL-NOT-REACHED where something is touched."
     (multiple-value-bind (reason bodies)
         (funcall (if smoothly #'run-smoothly #'run-path)
                  projection (with-present-grippers projection way) :watch watch :ignore ignore)
-      (when reason
-        (plan:fail 'plan:manipulation-goal-not-reached
-                   :description (format nil "the ~(~a~) arm stopped where ~a" (arm-name arm)
-                                        (contact-text bodies)))))))
+      (when reason (fail-to-move arm bodies)))))

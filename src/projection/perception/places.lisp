@@ -36,8 +36,8 @@ PROJECTION, or NIL: a link, else what a joint moves, else the root of a fixture.
              (values (urdf-model-root (scene-part-model part)) (scene-part-name part)))))))
 
 (defun movable-link (projection type)
-  "Return the name of the first link that a joint with TYPE in its name moves, and of its fixture, or
-NIL."
+  "Return the name of the first link that a joint with TYPE in its name moves, and of its fixture,
+or NIL."
   (dolist (part (parts-of-kind (projection-scene projection) :fixture))
     (dolist (joint (urdf-model-joints (scene-part-model part)))
       (when (and (not (eq (urdf-joint-type joint) :fixed))

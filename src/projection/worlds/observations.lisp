@@ -118,7 +118,7 @@ given, or NIL."
 PROJECTION.  Signals UNKNOWN-JOINT."
   (let* ((joint (fixture-joint projection name))
          (robot (projection-robot projection))
-         (number (and (null joint) robot (named-frame-number robot name))))
+         (number (and (null joint) robot (frame-number robot name))))
     (cond (joint (bullet:joint-position joint))
           ((and number (not (eq (urdf-joint-type (link-frame-joint
                                                   (svref (robot-frames robot) number)))
