@@ -69,7 +69,7 @@
 
 (defun within-body-p (body pose point)
   "Return true if the position of the pose POINT is inside of the box, along the axes of POSE, that
-the shape of BODY fills there, or up to 30 cm above it."
+the shape of BODY fills there."
   (let ((local (compose (inverse pose) point)))
     (flet ((between-p (value low high) (<= low value high)))
       (loop for piece in (shape-pieces (bullet:body-shape body) (identity-pose))
@@ -84,7 +84,7 @@ the shape of BODY fills there, or up to 30 cm above it."
             maximize (piece-high piece) into high
             finally (return (and (between-p (pose-x local) x0 x1)
                                  (between-p (pose-y local) y0 y1)
-                                 (between-p (pose-z local) low (+ high 0.3d0))))))))
+                                 (between-p (pose-z local) low high)))))))
 
 (defun check-joint-position (joint position)
   "Signal IMPOSSIBLE-JOINT-POSITION unless POSITION is within the limits of JOINT, a URDF-JOINT."
