@@ -59,7 +59,8 @@ The environment variable CXX names another compiler than g++."))
                "alexandria" "command-line-arguments")
   :pathname "src/interface/"
   :serial t
-  :components ((:file "package") (:file "repl") (:file "command-line") (:file "subcommands")
+  :components ((:file "package") (:file "repl") (:file "command-line") (:file "simulate")
+               (:file "subcommands")
                (:file "theory-commands") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
@@ -267,7 +268,7 @@ The environment variable CXX names another compiler than g++."))
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
   :depends-on ("discrepancy-finder/bullet" "discrepancy-finder/plan-language" "alexandria"
-               "cffi")
+               "cffi" "salza2")
   :pathname "src/projection/"
   :serial t
   :components ((:file "package") (:file "conditions")
@@ -299,7 +300,11 @@ The environment variable CXX names another compiler than g++."))
                (:module "actions" :serial t
                 :components ((:file "places") (:file "base-poses") (:file "moving")
                              (:file "searching") (:file "environment") (:file "fetching")
-                             (:file "transporting") (:file "groundings")))))
+                             (:file "transporting") (:file "groundings")))
+               (:module "pictures" :serial t
+                :components ((:file "chunks") (:file "viewpoints") (:file "png")
+                             (:file "ray-casting") (:file "top-view")
+                             (:file "view-world") (:file "frames")))))
 
 (asdf:defsystem "discrepancy-finder/statistics"
   :description "Distributions, regression, and rules that decide when there are enough samples."
@@ -318,10 +323,12 @@ The environment variable CXX names another compiler than g++."))
   :pathname "src/discrepancy/"
   :serial t
   :components ((:file "package") (:file "conditions")
-               (:file "random") (:file "abstraction") (:file "define-abstraction")
+               (:file "random") (:file "samplers") (:file "regions") (:file "observers")
+               (:file "abstraction") (:file "parsing") (:file "parsing-observers")
+               (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
-               (:file "results") (:file "search") (:file "report") (:file "replay")
-               (:file "replay-file")))
+               (:file "results") (:file "search") (:file "report") (:file "scene-runs")
+               (:file "replay") (:file "replay-file")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."
@@ -387,21 +394,31 @@ The environment variable CXX names another compiler than g++."))
                              (:file "plan-files") (:file "programs-on-a-path")))
                (:module "bullet" :serial t
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
-                             (:file "rays") (:file "mechanisms") (:file "motion-runs")))
+                             (:file "rays") (:file "joints") (:file "grips") (:file "hulls")
+                             (:file "contacts") (:file "checkpoints") (:file "mechanisms")
+                             (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
+                             (:file "urdf-errors") (:file "urdf") (:file "meshes")
+                             (:file "robots") (:file "scenes") (:file "actions-kitchen")
+                             (:file "worlds") (:file "navigation")
                              (:file "seeing") (:file "manipulation")
-                             (:file "manipulation-kitchen") (:file "actions-symbolic")
-                             (:file "actions-kitchen")))
+                             (:file "manipulation-kitchen") (:file "manipulation-actions")
+                             (:file "actions-symbolic")
+                             (:file "pictures")))
+               (:module "models"
+                :serial t
+                :components ((:file "kitchen-theory")))
                (:module "statistics"
                 :serial t
                 :components ((:file "normal") (:file "distributions") (:file "least-squares")
                              (:file "paper-rule") (:file "guaranteed-rules")))
                (:module "discrepancy"
                 :serial t
-                :components ((:file "random") (:file "abstraction") (:file "search")
+                :components ((:file "random") (:file "samplers") (:file "abstraction")
+                             (:file "regions") (:file "search")
                              (:file "replay")
-                             (:file "table-top")))
+                             (:file "table-top") (:file "tolerances")))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
@@ -418,4 +435,5 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "evaluator")
                (:file "household") (:file "clingo") (:file "bounded") (:file "progression")
-               (:file "exploration") (:file "benchmarks")))
+               (:file "exploration") (:file "calibration") (:file "transport")
+               (:file "benchmarks")))

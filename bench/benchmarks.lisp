@@ -66,10 +66,11 @@ own references and check sorts, and by raw calls."
                                (z3::z3-inc-ref pointer
                                                (z3::z3-mk-and pointer 2 arguments)))))))))))))))
 
-(defun compiled-peer ()
-  "Compile steps.cpp, if it has changed, and return the program's path."
-  (let ((source (asdf:system-relative-pathname "discrepancy-finder" "bench/steps.cpp"))
-        (program (asdf:system-relative-pathname "discrepancy-finder" "build/steps")))
+(defun compiled-peer (name)
+  "Compile NAME.cpp, if it has changed, and return the program's path."
+  (let ((source (asdf:system-relative-pathname "discrepancy-finder"
+                                               (format nil "bench/~a.cpp" name)))
+        (program (asdf:system-relative-pathname "discrepancy-finder" (format nil "build/~a" name))))
     (unless (and (uiop:file-exists-p program)
                  (> (file-write-date program) (file-write-date source)))
       (ensure-directories-exist program)
@@ -84,7 +85,7 @@ own references and check sorts, and by raw calls."
 (defun compare-steps (&key (rounds 31) (steps 20000))
   "Return the median steps/s through Lisp and in plain C++, and the median ratio of the times, pair
 by pair."
-  (let ((program (compiled-peer)) (ours '()) (theirs '()))
+  (let ((program (compiled-peer "steps")) (ours '()) (theirs '()))
     (lisp-steps-per-second steps)
     (loop repeat rounds
           do (push (lisp-steps-per-second steps) ours)
@@ -127,8 +128,10 @@ by pair."
                                                 :domain :two-regions)))
   (format stream "symbolic execution        ~,2f ms for Example 1~%"
           (* 1d3 (median-seconds (lambda () (example-trace)) :rounds 21)))
+  (print-transport-benchmarks stream)
   (print-plan-benchmarks stream)
   (print-evaluator-benchmarks stream)
   (print-bounded-benchmarks stream)
   (print-progression-benchmarks stream)
-  (print-exploration-benchmarks stream))
+  (print-exploration-benchmarks stream)
+  (print-calibration stream))

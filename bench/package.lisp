@@ -11,6 +11,8 @@ same work without it.")
                     (#:plan #:discrepancy-finder.plan-language)
                     (#:ec #:discrepancy-finder.event-calculus)
                     (#:symbolic #:discrepancy-finder.symbolic-execution)
+                    (#:statistics #:discrepancy-finder.statistics)
+                    (#:projection #:discrepancy-finder.projection)
                     (#:discrepancy #:discrepancy-finder.discrepancy)
                     (#:df #:discrepancy-finder))
   (:export
@@ -18,6 +20,8 @@ same work without it.")
    #:print-benchmarks
    ;; steps of a Bullet world, through Lisp and in plain C++
    #:lisp-steps-per-second #:plain-steps-per-second
+   ;; a plan in the kitchen
+   #:run-transport #:transport-run #:print-transport-benchmarks
    ;; rounds of the plan language
    #:perform-rounds #:module-rounds #:parallel-module-rounds
    #:retry-rounds #:plain-retry-rounds #:child-failure-rounds #:par-rounds

@@ -10,8 +10,8 @@
 ;;;;
 ;;;;   (F / capacity)^2 + (T / (capacity torsion-radius))^2 > 1
 ;;;;
-;;;; the limit surface of soft fingers.  The capacity is 2 mu N, for two pads with the coefficient of
-;;;; friction mu that press with N; a pad of 4 x 2.5 cm has a torsion radius of about 12 mm.
+;;;; the limit surface of soft fingers.  The capacity is 2 mu N, for two pads with the coefficient
+;;;; of friction mu that press with N; a pad of 4 x 2.5 cm has a torsion radius of about 12 mm.
 
 (in-package #:discrepancy-finder.bullet)
 
@@ -83,10 +83,10 @@ BULLET-ERROR if the world is closed."
 (defun attach (parent child &key (point (geometry:identity-pose)) (axis '(0 1 0)) capacity
                               (torsion-radius 0.012d0))
   "Fix the dynamic body CHILD to the body PARENT, of any kind, where the two are now; return the
-attachment.  With a CAPACITY (N) it is a grip that the child can be pulled out of: POINT is a pose in
-the child's link frame whose position is where the fingers hold, AXIS a unit vector, as a list, in
-the parent's link frame, on which they close, TORSION-RADIUS in m.  Signals BULLET-ERROR if CHILD is
-not dynamic, they are not two bodies of one world, or a number is out of its range."
+attachment.  With a CAPACITY (N) it is a grip that the child can be pulled out of: POINT is a pose
+in the child's link frame whose position is where the fingers hold, AXIS a unit vector, as a list,
+in the parent's link frame, on which they close, TORSION-RADIUS in m.  Signals BULLET-ERROR if
+CHILD is not dynamic, they are not two bodies of one world, or a number is out of its range."
   (let ((world (same-world parent child 'attach)))
     (macrolet ((make (call)
                  `(invoke ('attach pointer world)

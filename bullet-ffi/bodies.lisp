@@ -42,9 +42,10 @@
   "Return the list of three moments for a dynamic body: INERTIA, or else those of SHAPE and MASS."
   (let ((moments (or inertia (shape-inertia shape mass))))
     (unless (eql (ignore-errors (list-length moments)) 3)
-      (fail 'add-body "the inertia ~s of ~a is no list of three moments" moments owner))
+      (fail 'add-body "the inertia ~s of ~a is no list of three moments" moments
+            (described owner)))
     (loop for moment in moments
-          collect (number-of (format nil "a moment of inertia of ~a" owner)
+          collect (number-of (list "a moment of inertia of ~?" (first owner) (rest owner))
                              moment 'add-body :positive))))
 
 (defun register-body (body)
@@ -52,14 +53,23 @@
     (setf (gethash (body-name body) (world-body-names world)) body)
     (vector-push-extend body (world-body-vector world))))
 
+(defun put-pose (pose numbers start)
+  "Write the seven numbers of POSE into NUMBERS from START on."
+  (declare (type (simple-array double-float (*)) numbers) (type fixnum start))
+  (with-pose-numbers (pose)
+    (loop for number of-type double-float in (list x y z qx qy qz qw)
+          for index of-type fixnum from start
+          do (setf (aref numbers index) number))))
+
 (defun make-body (world name shape pose kind mass inertia inertial-pose material)
   "Return a new body, registered in WORLD.  Only the poses, SHAPE and INERTIA are still to be
 checked; MATERIAL is a list of five numbers."
   (let ((numbers (make-array 23 :element-type 'double-float))
-        (owner (format nil "body ~a" name)))
-    (replace numbers (geometry:pose-components pose))
+        (owner (list "body ~a" name))
+        (body nil))
+    (put-pose pose numbers 0)
     (setf (aref numbers 7) mass)
-    (replace numbers (geometry:pose-components inertial-pose) :start1 11)
+    (put-pose inertial-pose numbers 11)
     (replace numbers material :start1 18)
     (with-shape (shape-pointer shape owner)
       (when (eq kind :dynamic)
@@ -72,10 +82,11 @@ checked; MATERIAL is a list of five numbers."
                                    (ecase kind (:static 0) (:dynamic 1) (:kinematic 2))
                                    pointer mass-numbers material-numbers)))
                 (when (>= id 0)
-                  (register-body (%make-body world id name shape kind mass)))
+                  (setf body (%make-body world id name shape kind mass))
+                  (register-body body))
                 id)
             (:bad-number (bad-pose name))))))
-    (find-body world name)))
+    body))
 
 (defun add-body (world name shape pose
                  &key (mass 0d0) (kind (if (member mass '(0 0f0 0d0)) :static :dynamic)) inertia
@@ -94,7 +105,8 @@ taken, SHAPE malformed, a pose no finite position with a unit quaternion, or a n
 range."
   (live-pointer world 'add-body)
   (flet ((number (thing value sort)
-           (number-of (format nil "the ~a of body ~a" thing name) value 'add-body sort)))
+           (number-of (list "the ~a of body ~a" thing name) value 'add-body sort)))
+    (declare (inline number))
     (let ((mass (number "mass" mass (if (eq kind :dynamic) :positive :not-negative)))
           (material (list (number "friction" friction :not-negative)
                           (number "rolling friction" rolling-friction :not-negative)
@@ -139,10 +151,10 @@ the world is closed."
             (aref state 10) (aref state 11) (aref state 12))))
 
 (defun move-body (body pose)
-  "Move the link frame of the kinematic BODY to POSE: in the next step it has the velocity that takes it there, so
-that it pushes and drags what it touches.  Not moved in the step after that, it stands still.
-Return BODY.  Signals BULLET-ERROR if BODY is not kinematic or POSE no finite position with a unit
-quaternion."
+  "Move the link frame of the kinematic BODY to POSE: in the next step it has the velocity that
+takes it there, so that it pushes and drags what it touches.  Not moved in the step after that, it
+stands still.  Return BODY.  Signals BULLET-ERROR if BODY is not kinematic or POSE no finite
+position with a unit quaternion."
   (declare (optimize speed (safety 1)) (type body body) (type geometry:pose pose))
   (with-pose-numbers (pose)
     (invoke ('move-body pointer (body-world body))

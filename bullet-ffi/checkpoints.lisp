@@ -6,9 +6,9 @@
 ;;;; without such memory changes: some hundredths of a millimetre where things lie on each other.
 ;;;;
 ;;;; A world of the same structure is one with equal bodies and joints, made in the same order.
-;;;; Attachments, ignored collisions, motors and removed joints are state.  So an attachment that was
-;;;; made after the checkpoint is undone, and one that was removed after it is there again, as the
-;;;; same object; in another world ATTACHMENTS returns its own.
+;;;; Attachments, ignored collisions, motors and removed joints are state.  So an attachment that
+;;;; was made after the checkpoint is undone, and one that was removed after it is there again, as
+;;;; the same object; in another world ATTACHMENTS returns its own.
 
 (in-package #:discrepancy-finder.bullet)
 
@@ -23,6 +23,8 @@
   (steps 0 :type (and fixnum unsigned-byte) :read-only t)
   (numbers nil :type (simple-array double-float (*)) :read-only t)
   (pairs '() :type list :read-only t))    ; the ids of the two bodies of each attachment
+
+(setf (documentation 'checkpoint-p 'function) "Return true if OBJECT is a checkpoint.")
 
 (defmethod print-object ((checkpoint checkpoint) stream)
   (print-unreadable-object (checkpoint stream :type t)
@@ -62,8 +64,9 @@ Signals BULLET-ERROR if WORLD is closed."
       (vector-push-extend attachment attachments))))
 
 (defun restore-checkpoint (world checkpoint)
-  "Return WORLD to the state of CHECKPOINT, which was made of it or of a world of the same structure;
-return WORLD.  Signals BULLET-ERROR if the structure of WORLD is another one or it is closed."
+  "Return WORLD to the state of CHECKPOINT, which was made of it or of a world of the same
+structure; return WORLD.  Signals BULLET-ERROR if the structure of WORLD is another one or it is
+closed."
   (check-type checkpoint checkpoint)
   (let ((numbers (checkpoint-numbers checkpoint)))
     (cffi:with-pointer-to-vector-data (numbers-pointer numbers)

@@ -31,8 +31,8 @@ the vector's data."
 (defun mechanism-clearance (mechanism base positions watched obstacles limit)
   "Return how far (m) apart the two nearest bodies would be, one of the list WATCHED and one of the
 list OBSTACLES, with the base of MECHANISM at the pose BASE and its joints at POSITIONS; and the
-two.  Return 0 and the first two found if any penetrate each other; LIMIT (m) and twice NIL if none are
-nearer than that.  Pairs that ignore their collision do not count.  Signals BULLET-ERROR if a number
+two.  Return 0 and the first two found if any penetrate each other; LIMIT (m) and twice NIL if none
+are nearer than that.  Pairs that ignore their collision do not count.  Signals BULLET-ERROR if a number
 is not finite, LIMIT not positive or a body of another world."
   (check-positions mechanism positions 'mechanism-clearance)
   (let* ((world (mechanism-world mechanism))

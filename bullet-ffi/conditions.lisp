@@ -14,3 +14,8 @@ that is not finite, a body of another world.  The world is as it was before the 
 (defun fail (operation control &rest arguments)
   "Signal a BULLET-ERROR of OPERATION with the reason that CONTROL and ARGUMENTS format."
   (error 'bullet-error :operation operation :reason (apply #'format nil control arguments)))
+
+(defun described (thing)
+  "Return the string that THING is, or that it formats if it is a list of a control string and its
+arguments: for what need be named only if it is wrong."
+  (if (consp thing) (apply #'format nil thing) thing))

@@ -26,16 +26,16 @@ world."
 
 (defun touching-p (a b &key (distance 0))
   "Return true if the bodies A and B are not farther than DISTANCE (m) from each other.  Bodies that
-rest on each other may be some micrometres apart.  Signals BULLET-ERROR if they are not two bodies of
-one world."
+rest on each other may be some micrometres apart.  Signals BULLET-ERROR if they are not two bodies
+of one world."
   (let ((distance (number-of "the distance" distance 'touching-p)))
     (<= (pair-distance a b (+ distance 1d-3)) distance)))
 
 (defun contacts (body &key (distance 0) passed)
-  "Return a list, in the order in which the bodies were added, of a list (other depth point) for each
-other body that is not farther than DISTANCE (m) from BODY: DEPTH is how deep it penetrates (m),
-negative minus the distance, POINT an upright pose in the midst.  The bodies of the list PASSED do
-not count.  Signals BULLET-ERROR if a body is of another world."
+  "Return a list, in the order in which the bodies were added, of a list (other depth point) for
+each other body that is not farther than DISTANCE (m) from BODY: DEPTH is how deep it penetrates
+(m), negative minus the distance, POINT an upright pose in the midst.  The bodies of the list PASSED
+do not count.  Signals BULLET-ERROR if a body is of another world."
   (let* ((world (body-world body))
          (bodies (world-body-vector world))
          (distance (number-of "the distance" distance 'contacts))
@@ -58,8 +58,8 @@ not count.  Signals BULLET-ERROR if a body is of another world."
 (defun clearance (bodies others limit)
   "Return the smallest distance (m) between one of BODIES and one of OTHERS, lists of bodies of one
 world, and these two bodies; it is minus the depth of the deepest two if any penetrate each other.
-Return LIMIT, NIL and NIL if none are nearer than LIMIT.  Signals BULLET-ERROR if a body is of another
-world."
+Return LIMIT, NIL and NIL if none are nearer than LIMIT.  Signals BULLET-ERROR if a body is of
+another world."
   (let ((limit (number-of "the limit" limit 'clearance)))
     (if (or (null bodies) (null others))
         (values limit nil nil)

@@ -15,7 +15,6 @@
 #include "queries.inc"
 #include "rays.inc"
 #include "sweeps.inc"
-#include "checkpoints.inc"
 #include "mechanisms.inc"
 #include "kinematics.inc"
 #include "courses.inc"
@@ -24,6 +23,8 @@
 #include "surveys.inc"
 #include "motion-runs.inc"
 #include "clearances.inc"
+#include "checkpoint-data.inc"
+#include "checkpoints.inc"
 
 extern "C" {
 

@@ -1,10 +1,10 @@
 /* C API of the Bullet shim: rigid-body worlds for a caller that has no C++.
  *
- * Worlds and shapes are opaque handles.  Bodies, attachments and joints are ids inside of one world:
- * integers from 0, in the order of their making.  A function that makes something returns its id,
- * every other one DFB_OK or what its comment says; a negative result is one of the statuses below,
- * and then nothing was changed and no output was written.  Handles are checked at each entry, ids
- * for bounds and liveness, numbers for being finite (at most 1e9 in magnitude).
+ * Worlds and shapes are opaque handles.  Bodies, attachments and joints are ids inside of one
+ * world: integers from 0, in the order of their making.  A function that makes something returns
+ * its id, every other one DFB_OK or what its comment says; a negative result is one of the
+ * statuses below, and then nothing was changed and no output was written.  Handles are checked at
+ * each entry, ids for bounds and liveness, numbers for being finite (at most 1e9 in magnitude).
  *
  * A pose is x, y, z (m) and a unit quaternion qx, qy, qz, qw.  The state of a body is 13 doubles:
  * its pose, its linear velocity (m/s), its angular velocity (rad/s).  SI units everywhere.
@@ -55,8 +55,9 @@ DFB_API int dfb_world_delete(dfb_world *world);
 /* Advance the world by a number of time steps. */
 DFB_API int dfb_step(dfb_world *world, int steps);
 
-/* Shapes: each function writes a new handle.  A shape may be used in any number of worlds and threads,
- * and is freed when neither its handle nor a body needs it; its origin is that of the link frame. */
+/* Shapes: each function writes a new handle.  A shape may be used in any number of worlds and
+ * threads, and is freed when neither its handle nor a body needs it; its origin is that of the link
+ * frame. */
 /* Free the handle of a shape. */
 DFB_API int dfb_shape_delete(dfb_shape *shape);
 /* Make a box with these full extents (m). */
@@ -118,15 +119,15 @@ DFB_API int dfb_at_rest(dfb_world *world);
 /* Fix a dynamic child to a parent where it is; return an attachment.  The two do not collide. */
 DFB_API int dfb_attach(dfb_world *world, int parent, int child);
 /* The same with two fingers that hold by friction.  Point is where they hold, in the child's link
- * frame; axis is on which they close, a unit vector in the parent's.  After each step but the first,
- * with F the force on the child across the axis and T the torque about it at the point, the
- * utilization is the square root of (F/capacity)^2 + (T/(capacity torsion_radius))^2; if it is more
- * than 1, the child is lost: it is detached and keeps its velocity.  Capacity is twice the
+ * frame; axis is on which they close, a unit vector in the parent's.  After each step but the
+ * first, with F the force on the child across the axis and T the torque about it at the point,
+ * the utilization is the square root of (F/capacity)^2 + (T/(capacity torsion_radius))^2; if it
+ * is more than 1, the child is lost: it is detached and keeps its velocity.  Capacity is twice the
  * coefficient of friction times the force of each finger (N), torsion_radius in m. */
 DFB_API int dfb_grip(dfb_world *world, int parent, int child, const double *point,
                      const double *axis, double capacity, double torsion_radius);
-/* Write the utilization of a grip in the last step (0 for others); return 1 if the attachment holds,
- * 0 if it was removed, 2 if the child was lost. */
+/* Write the utilization of a grip in the last step (0 for others); return 1 if the attachment
+ * holds, 0 if it was removed, 2 if the child was lost. */
 DFB_API int dfb_attachment_state(dfb_world *world, int attachment, double *utilization);
 /* Remove an attachment. */
 DFB_API int dfb_detach(dfb_world *world, int attachment);
@@ -136,11 +137,12 @@ DFB_API int dfb_attachment_load(dfb_world *world, int attachment, double *load);
 DFB_API int dfb_ignore_collision(dfb_world *world, int a, int b, int flag);
 
 /* Joints */
-/* Join a child that is not static to a parent, or to the world (parent -1), by a joint of a dfb_joint_type; the
- * two do not collide.  Frame (7 doubles) is where the joint is in the world with the bodies as they
- * are, its position 0.  A slider moves along x of the frame, a hinge turns about it: limits are the
- * lowest and the highest position (m, rad).  Those of a six-dof joint are six such pairs: of the
- * moves along x, y and z and of the turns about them.  A pair whose first is greater is no limit. */
+/* Join a child that is not static to a parent, or to the world (parent -1), by a joint of a
+ * dfb_joint_type; the two do not collide.  Frame (7 doubles) is where the joint is in the world
+ * with the bodies as they are, its position 0.  A slider moves along x of the frame, a hinge turns
+ * about it: limits are the lowest and the highest position (m, rad).  Those of a six-dof joint are
+ * six such pairs: of the moves along x, y and z and of the turns about them.  A pair whose first
+ * is greater is no limit. */
 DFB_API int dfb_joint_new(dfb_world *world, int type, int parent, int child, const double *frame,
                           const double *limits);
 /* Remove a joint. */
@@ -168,8 +170,8 @@ DFB_API int dfb_penetration(dfb_world *world, int a, int b, double *depth);
 DFB_API int dfb_deepest_penetration(dfb_world *world, double *depth, int *a, int *b);
 
 /* Find the other bodies, the passed_count ones in passed aside, that are not farther than distance
- * from a body: write their ids and for each four numbers, how deep it penetrates (negative: minus the
- * distance) and a point in the midst (m); return how many they are.  There must be room for all
+ * from a body: write their ids and for each four numbers, how deep it penetrates (negative: minus
+ * the distance) and a point in the midst (m); return how many they are.  There must be room for all
  * bodies of the world. */
 DFB_API int dfb_contacts(dfb_world *world, int body, double distance, int passed_count,
                          const int *passed, int *others, double *numbers);
@@ -191,9 +193,9 @@ DFB_API int dfb_cast_ray(dfb_world *world, double x, double y, double z, double 
  * where there is one.  Return the number of rays that hit something. */
 DFB_API int dfb_cast_rays(dfb_world *world, int count, const double *rays, int passed_count,
                           const int *passed, int *bodies, double *hits);
-/* Move a shape that is neither a plane nor a union straight from one pose to another (7 doubles each,
- * at least 1e-9 m apart), turning evenly: write the first body that it touches, the passed_count
- * ones aside, and 7 doubles as for rays.  Return DFB_NOTHING if there is none. */
+/* Move a shape that is neither a plane nor a union straight from one pose to another (7 doubles
+ * each, at least 1e-9 m apart), turning evenly: write the first body that it touches, the
+ * passed_count ones aside, and 7 doubles as for rays.  Return DFB_NOTHING if there is none. */
 DFB_API int dfb_sweep(dfb_world *world, const dfb_shape *shape, const double *from,
                       const double *to, int passed_count, const int *passed, int *body,
                       double *hit);
@@ -203,11 +205,11 @@ DFB_API int dfb_sweep(dfb_world *world, const dfb_shape *shape, const double *fr
 DFB_API int dfb_checkpoint_size(dfb_world *world);
 /* Write a checkpoint, to an output of length doubles.  It holds whatever later steps depend on: all
  * states, sleep, motors, attachments, ignored collisions.  What Bullet would remember beyond
- * that, as contacts, the world forgets, so that it goes on with the same bits as a world to which the
- * checkpoint is restored. */
+ * that, as contacts, the world forgets, so that it goes on with the same bits as a world to which
+ * the checkpoint is restored. */
 DFB_API int dfb_checkpoint_make(dfb_world *world, double *checkpoint, int length);
-/* Restore a checkpoint of this world or of one with equal bodies and joints, made in the same order;
- * return DFB_BAD_CHECKPOINT for any other. */
+/* Restore a checkpoint of this world or of one with equal bodies and joints, made in the same
+ * order; return DFB_BAD_CHECKPOINT for any other. */
 DFB_API int dfb_checkpoint_restore(dfb_world *world, const double *checkpoint, int length);
 
 /* Mechanisms: trees of links moved by forward kinematics, robots.  A link hangs on a joint, which
@@ -218,8 +220,8 @@ DFB_API int dfb_checkpoint_restore(dfb_world *world, const double *checkpoint, i
  * infinite), multiplier and offset of the mimicked position. */
 DFB_API int dfb_mechanism_new(dfb_world *world, int count, const int *integers,
                               const double *numbers);
-/* Move the links' bodies to where base, a pose, and positions put them; with teleport 1 at rest, and
- * with them what is attached to them. */
+/* Move the links' bodies to where base, a pose, and positions put them; with teleport 1 at rest,
+ * and with them what is attached to them. */
 DFB_API int dfb_mechanism_pose(dfb_world *world, int mechanism, const double *base,
                                const double *positions, int teleport);
 /* Write where the base, a pose, and the joints, one position each, were moved to last. */
@@ -241,15 +243,15 @@ DFB_API int dfb_inverse_kinematics(dfb_world *world, int mechanism, int link, co
                                    double *solutions, double *error);
 
 /* Motions of a mechanism */
-/* Begin a motion that takes the joints straight from start to goal (joints that are not at start
- * are put there first, at rest; start NULL: where they are; goal NULL: start) and, with base_moves 1,
- * the base along bases.  Without fast each step steps the world; with fast 1 steps that can affect
- * nothing but held bodies are skipped.  A step in which a watched body, of a link or attached to
- * one, would come as near as contact_distance (m, not negative) to an obstacle ends the motion
- * before it. */
 /* Let the motion that is begun next take the joints on a smooth curve through count positions, one
  * set after the other, between start and goal. */
 DFB_API int dfb_motion_via(dfb_world *world, int mechanism, int count, const double *positions);
+/* Begin a motion that takes the joints straight from start to goal (joints that are not at start
+ * are put there first, at rest; start NULL: where they are; goal NULL: start) and, with base_moves
+ * 1, the base along bases.  Without fast each step steps the world; with fast 1 steps that can
+ * affect nothing but held bodies are skipped.  A step in which a watched body, of a link or
+ * attached to one, would come as near as contact_distance (m, not negative) to an obstacle ends
+ * the motion before it. */
 DFB_API int dfb_motion_begin(dfb_world *world, int mechanism, const double *start,
                              const double *goal, int base_moves, int fast,
                              double contact_distance, int watched_count, const int *watched,

@@ -1,8 +1,8 @@
 ;;;; Volume, centre of mass and inertia of shapes that are filled evenly.
 ;;;;
-;;;; Everything comes from the moments of a shape, 13 double floats: its volume, the integrals over it
-;;;; of x, y and z, and of their products, row by row.  Bullet's own moments of inertia are those of
-;;;; the bounding box for cylinders, hulls and compounds, a third too much for a rolling cup.
+;;;; Everything comes from the moments of a shape, 13 double floats: its volume, the integrals over
+;;;; it of x, y and z, and of their products, row by row.  Bullet's own moments of inertia are those
+;;;; of the bounding box for cylinders, hulls and compounds, a third too much for a rolling cup.
 
 (in-package #:discrepancy-finder.bullet)
 
@@ -53,6 +53,14 @@
                     (+ (turned-product i j) (* oi (turned j)) (* oj (turned i))
                        (* volume oi oj))))))))))
 
+(declaim (ftype function shape-moments))
+
+(defun compound-moments (parts)
+  (let ((total (make-moments 0)))
+    (loop for (pose part) in parts
+          do (map-into total #'+ total (moved-moments (shape-moments part) pose)))
+    total))
+
 (defun shape-moments (shape)
   "Return the moments of the well-formed SHAPE, which is no plane; parts of a compound that overlap
 count twice."
@@ -69,12 +77,8 @@ count twice."
                    (let* ((volume (* pi radius radius height))
                           (across (* 1/4 volume radius radius)))
                      (make-moments volume across across (/ (* volume height height) 12)))))
-      (:hull (hull-moments numbers))
-      (:compound (let ((total (make-moments 0)))
-                   (loop for (pose part) in numbers
-                         do (map-into total #'+ total
-                                      (moved-moments (shape-moments part) pose)))
-                   total)))))
+      (:hull (kept-moments shape (lambda () (hull-moments numbers))))
+      (:compound (kept-moments shape (lambda () (compound-moments numbers)))))))
 
 (defun shape-volume (shape)
   "Return the volume (m^3) of the well-formed SHAPE, which is no plane; where parts of a compound
@@ -152,9 +156,9 @@ axes.  Signals BULLET-ERROR if a number is not finite."
             (axes-pose axes))))
 
 (defun mass-properties (shape mass)
-  "Return two values for ADD-BODY: the principal moments of inertia (kg m^2) about its centre of mass
-of a body with a well-formed SHAPE, which is no plane, and MASS (kg), evenly spread, and the inertial
-pose, that of their axes in the link frame."
+  "Return two values for ADD-BODY: the principal moments of inertia (kg m^2) about its centre of
+mass of a body with a well-formed SHAPE, which is no plane, and MASS (kg), evenly spread, and the
+inertial pose, that of their axes in the link frame."
   (let* ((moments (shape-moments shape))
          (volume (aref moments 0))
          (density (/ mass volume))

@@ -76,11 +76,12 @@
                     (angular '((0 0) (0 0) (0 0))))
   "Join the body CHILD of WORLD, which is not static, to the body PARENT, or to the world if that is
 NIL; return the joint.  FRAME is where it is, a pose in the world with the bodies as they are now: a
-:SLIDER moves along its x axis and a :HINGE turns about it, both within LOWER and UPPER (m, rad; both
-or neither), a :FIXED joint holds, and a :SIX-DOF one keeps the moves along x, y and z of FRAME within
-the three limits LINEAR and the turns about them within ANGULAR; such a limit is a list (low high), or
-NIL for none, and the turn about y must stay below a quarter.  NAME is for FIND-JOINT.  Signals
-BULLET-ERROR if a body is of another world or the child static, NAME taken, or a number wrong."
+:SLIDER moves along its x axis and a :HINGE turns about it, both within LOWER and UPPER (m, rad;
+both or neither), a :FIXED joint holds, and a :SIX-DOF one keeps the moves along x, y and z of FRAME
+within the three limits LINEAR and the turns about them within ANGULAR; such a limit is a list (low
+high), or NIL for none, and the turn about y must stay below a quarter.  NAME is for
+FIND-JOINT.  Signals BULLET-ERROR if a body is of another world or the child static, NAME taken, or
+a number wrong."
   (live-pointer world 'add-joint)
   (dolist (body (if parent (list parent child) (list child)))
     (unless (and (body-p body) (eq (body-world body) world))
@@ -142,8 +143,8 @@ BULLET-ERROR if the world was closed before."
   (format nil "~a has no single position" joint))
 
 (defun joint-position (joint)
-  "Return the position of the slider (m) or hinge (rad) JOINT.  Signals BULLET-ERROR if it is neither
-or was removed."
+  "Return the position of the slider (m) or hinge (rad) JOINT.  Signals BULLET-ERROR if it is
+neither or was removed."
   (let ((position (make-array 1 :element-type 'double-float)))
     (cffi:with-pointer-to-vector-data (position-pointer position)
       (invoke ('joint-position pointer (joint-world joint))
@@ -152,9 +153,9 @@ or was removed."
     (aref position 0)))
 
 (defun set-joint-position (joint position)
-  "Put the child of the slider or hinge JOINT to where JOINT has POSITION (m, rad), at rest there, as
-PLACE-BODY does; return JOINT.  Signals BULLET-ERROR if POSITION is beyond its limits, JOINT neither
-a slider nor a hinge, or removed."
+  "Put the child of the slider or hinge JOINT to where JOINT has POSITION (m, rad), at rest there,
+as PLACE-BODY does; return JOINT.  Signals BULLET-ERROR if POSITION is beyond its limits, JOINT
+neither a slider nor a hinge, or removed."
   (let ((number (number-of "the position" position 'set-joint-position)))
     (invoke ('set-joint-position pointer (joint-world joint))
         (%joint-place pointer (joint-id joint) number)
@@ -164,9 +165,10 @@ a slider nor a hinge, or removed."
   joint)
 
 (defun set-motor (joint velocity force)
-  "Let the motor of the slider or hinge JOINT strive for VELOCITY (m/s, rad/s) with at most FORCE (N,
-Nm); return JOINT.  FORCE 0 lets it move freely, as at first; VELOCITY 0 with a FORCE is friction.
-Signals BULLET-ERROR if a number is out of range, JOINT neither a slider nor a hinge, or removed."
+  "Let the motor of the slider or hinge JOINT strive for VELOCITY (m/s, rad/s) with at most FORCE
+(N, Nm); return JOINT.  FORCE 0 lets it move freely, as at first; VELOCITY 0 with a FORCE is
+friction.  Signals BULLET-ERROR if a number is out of range, JOINT neither a slider nor a hinge, or
+removed."
   (let ((velocity (number-of "the velocity of a motor" velocity 'set-motor))
         (force (number-of "the force of a motor" force 'set-motor :not-negative)))
     (invoke ('set-motor pointer (joint-world joint))

@@ -105,8 +105,8 @@ contact, if any."
 double floats each (see POSE-COMPONENTS), or is NIL if the base stays; FRACTIONS the part of the
 straight way of all joints from the positions START to GOAL, one double float each, or is NIL if the
 joints stay.  START is by default where they are; joints that are not at START are put there first.
-With THROUGH, a list of vectors of positions, the joints take a smooth curve through these, each piece
-of which is the same part of the way.
+With THROUGH, a list of vectors of positions, the joints take a smooth curve through these, each
+piece of which is the same part of the way.
 
 WATCHED and OBSTACLES are lists of bodies.  A step in which a watched body (of a link, or attached
 to one) would come as near as CONTACT-DISTANCE (m) to an obstacle is not done, and ends the motion:

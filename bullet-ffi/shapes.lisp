@@ -16,7 +16,8 @@
 (in-package #:discrepancy-finder.bullet)
 
 (defun malformed-shape (shape owner)
-  (fail 'add-body "the shape ~s of ~a is malformed; it should be ~a" shape owner
+  (fail 'add-body "the shape ~s of ~a is malformed; it should be ~a" shape
+        (described owner)
         (case (if (consp shape) (first shape) shape)
           (:box "(:box x y z) with positive lengths")
           (:sphere "(:sphere radius) with a positive radius")
@@ -32,10 +33,8 @@
                (every #'realp (rest shape)))
     (malformed-shape shape owner))
   (loop for number in (rest shape)
-        collect (if (typep number '(double-float -1d9 1d9))
-                    number
-                    (number-of (format nil "a number of the shape ~s of ~a" shape owner)
-                               number 'add-body))))
+        collect (number-of (list "a number of the shape ~s of ~?" shape (first owner) (rest owner))
+                           number 'add-body)))
 
 (defun point-numbers (points operation)
   "Return a vector of the numbers of POINTS, a list or vector of lists of three numbers each."
@@ -46,10 +45,7 @@
              (unless (eql (ignore-errors (list-length point)) 3)
                (fail operation "~s is no point (x y z)" point))
              (dolist (number point)
-               (setf (aref numbers index)
-                     (if (typep number '(double-float -1d9 1d9))
-                         number
-                         (number-of "a number of a point" number operation)))
+               (setf (aref numbers index) (number-of "a number of a point" number operation))
                (incf index))))
       (map nil #'add points))
     numbers))
@@ -62,8 +58,8 @@
     (bullet-error () (malformed-shape shape owner))))
 
 (defun new-shape (shape owner)
-  "Return the pointer of a new foreign shape made of the list SHAPE.  OWNER is the body's name for
-messages.  Signals BULLET-ERROR if SHAPE is malformed."
+  "Return the pointer of a new foreign shape made of the list SHAPE.  OWNER is who has it, a
+list that DESCRIBED takes, for messages.  Signals BULLET-ERROR if SHAPE is malformed."
   (let ((out (make-array 1 :element-type '(unsigned-byte 64))))
     (cffi:with-pointer-to-vector-data (pointer out)
       (flet ((numbers (count) (shape-numbers shape owner count)))
@@ -119,7 +115,7 @@ messages.  Signals BULLET-ERROR if SHAPE is malformed."
                              (%shape-compound count children-pointer poses-pointer out))))))
            (when (= status -5)
              (fail 'add-body "a pose in the compound shape of ~a is not a finite position with a ~
-                              unit quaternion" owner))
+                              unit quaternion" (described owner)))
            status)
       (loop for child across children
             unless (zerop child)
@@ -128,6 +124,14 @@ messages.  Signals BULLET-ERROR if SHAPE is malformed."
 (sb-ext:defglobal **kept-shapes**
     (make-hash-table :test #'eq :weakness :key :synchronized t))
 (declaim (type hash-table **kept-shapes**))
+
+(defun kept-moments (shape make)
+  "Return the moments of SHAPE, those that are kept with its foreign shape or what MAKE returns."
+  (let ((handle (gethash shape **kept-shapes**)))
+    (if handle
+        (or (shape-handle-moments handle)
+            (setf (shape-handle-moments handle) (funcall make)))
+        (funcall make))))
 
 (defun kept-shape (shape owner)
   "Return the handle of the foreign shape made of the list SHAPE, now or before."
@@ -139,7 +143,9 @@ messages.  Signals BULLET-ERROR if SHAPE is malformed."
             (sb-ext:finalize shape (lambda () (release handle)) :dont-save t)
             (setf (gethash shape **kept-shapes**) handle))))))
 
+(declaim (inline call-with-shape))
 (defun call-with-shape (function shape owner)
+  (declare (type function function))
   (if (and (consp shape) (member (first shape) '(:hull :compound)))
       (let ((handle (kept-shape shape owner)))
         (sb-sys:with-pinned-objects (shape)
@@ -149,6 +155,6 @@ messages.  Signals BULLET-ERROR if SHAPE is malformed."
           (%shape-delete pointer)))))
 
 (defmacro with-shape ((pointer shape owner) &body body)
-  "Evaluate BODY with POINTER bound to the foreign shape made of the list SHAPE.  OWNER is who has it,
-for messages.  Signals BULLET-ERROR if SHAPE is malformed."
+  "Evaluate BODY with POINTER bound to the foreign shape made of the list SHAPE.  OWNER is who
+has it, a list that DESCRIBED takes, for messages.  Signals BULLET-ERROR if SHAPE is malformed."
   `(call-with-shape (lambda (,pointer) ,@body) ,shape ,owner))

@@ -14,9 +14,9 @@
 turning evenly.  Return the first body that it touches, which part, 0 to 1, of the way it goes until
 then, an upright pose where it touches, and the outward normal of the body there, a list of three
 numbers; or NIL if there is none.  A body that the shape is in at first is touched at once, with a
-normal against the way; what is only grazed is not touched.  PASSED is a list of bodies that do not
-count.  Signals BULLET-ERROR if SHAPE is another one or malformed, the positions are not finite or not
-1e-9 m apart, or a body is of another world."
+normal against the way.  PASSED is a list of bodies that do not
+count.  Signals BULLET-ERROR if SHAPE is another one or malformed, the positions are not finite or
+not 1e-9 m apart, or a body is of another world."
   (check-type from geometry:pose)
   (check-type to geometry:pose)
   (live-pointer world 'sweep)
@@ -27,7 +27,7 @@ count.  Signals BULLET-ERROR if SHAPE is another one or malformed, the positions
         (goal (pose-vector to))
         (body (make-array 1 :element-type '(signed-byte 32)))
         (hit (make-array 7 :element-type 'double-float)))
-    (with-shape (shape-pointer shape "the sweep")
+    (with-shape (shape-pointer shape '("the sweep"))
       (cffi:with-pointer-to-vector-data (ids-pointer ids)
         (cffi:with-pointer-to-vector-data (start-pointer start)
           (cffi:with-pointer-to-vector-data (goal-pointer goal)

@@ -28,7 +28,8 @@
   (and (handle-open handle) (eq (handle-session handle) **session**)))
 
 (defstruct (shape-handle (:include handle) (:constructor make-shape-handle (pointer session))
-                         (:copier nil)))
+                         (:copier nil))
+  (moments nil :type (or null (simple-array double-float (13)))))  ; see inertia.lisp
 
 (defun release (handle)
   "Delete the foreign world or shape of HANDLE unless it was deleted already."
@@ -107,32 +108,39 @@ status is :NOTHING."
     (:bad-checkpoint "the checkpoint is not one of such a world")
     (:bad-link "the link, or one of the joints, is none of the mechanism")))
 
+(declaim (inline in-range-p number-of))
 (defun in-range-p (number sort)
+  (declare (type double-float number))
   (and (not (sb-ext:float-nan-p number))
        (<= (abs number) 1d9)
        (ecase sort
          (:finite t)
-         (:positive (plusp number))
-         (:not-negative (not (minusp number)))
-         (:fraction (<= 0 number 1)))))
+         (:positive (> number 0d0))
+         (:not-negative (>= number 0d0))
+         (:fraction (<= 0d0 number 1d0)))))
 
-(defun number-of (thing value operation &optional (sort :finite))
-  "Return the real VALUE as a double float, by GEOMETRY:DECIMAL-DOUBLE.  If it is not of SORT,
-signal that OPERATION got it for THING."
+(defun converted-number (thing value operation sort)
+  "Return what NUMBER-OF does for a VALUE that is no double float in the range of SORT."
   (let ((number (typecase value
-                  (double-float value)
                   (single-float (unless (or (sb-ext:float-nan-p value)
                                             (sb-ext:float-infinity-p value))
                                   (geometry:decimal-double value)))
                   ((rational -1000000000 1000000000) (geometry:decimal-double value)))))
     (if (and number (in-range-p number sort))
         number
-        (fail operation "~a is ~s, but must be ~a" thing value
+        (fail operation "~a is ~s, but must be ~a" (described thing) value
               (ecase sort
                 (:finite "a number of at most 1e9 in magnitude")
                 (:positive "a positive number of at most 1e9")
                 (:not-negative "a number from 0 to 1e9")
                 (:fraction "a number from 0 to 1"))))))
+
+(defun number-of (thing value operation &optional (sort :finite))
+  "Return the real VALUE as a double float, by GEOMETRY:DECIMAL-DOUBLE.  If it is not of SORT,
+signal that OPERATION got it for THING, a string or what DESCRIBED takes."
+  (if (and (typep value 'double-float) (in-range-p value sort))
+      value
+      (converted-number thing value operation sort)))
 
 (defun make-world (&key (gravity -9.81d0) (time-step 1/240))
   "Return a new, empty world with GRAVITY (m/s^2) along z that advances by TIME-STEP (s) at each

@@ -234,15 +234,20 @@ the same in every run, and the same as in symbolic execution."
        (projection:close-projection ,variable))))
 
 (defun execute-sample (domain plan sample &key trace (execution :trace) arguments
-                                            (output (make-broadcast-stream)))
+                                            (output (make-broadcast-stream)) (fidelity :fast)
+                                            observer)
   "Run PLAN (a symbol) with ARGUMENTS in a new world of DOMAIN that begins with SAMPLE, and return
 the RUN.  With a TRACE the sample must map to its initial state, else the run is invalid and has no
-steps; EXECUTION is :TRACE or :PLAN.  What the plan prints goes to OUTPUT.  The same arguments give
-the same bits, provided that the plan does not read global variables that it writes."
+steps; EXECUTION is :TRACE or :PLAN, FIDELITY :FAST or :FULL.  What the plan prints goes to OUTPUT.
+OBSERVER is a function of a projection, a designator and a failure, or NIL, as for
+PROJECTION:WATCH-PROJECTION; it is called once more at the end.  The same arguments give the same
+bits, provided that the plan does not read global variables that it writes."
   (with-open-projection (projection (projection:make-projection
                                      (domain-scene domain)
-                                     :poses (sample-poses domain sample)
-                                     :parameters (sample-tolerances sample)))
+                                     :poses (sample-poses (domain-scene domain) sample)
+                                     :joints (sample-joints sample)
+                                     :parameters (sample-tolerances sample)
+                                     :fidelity fidelity))
     ;; What is built into something else is invalid, however it comes apart.
     (let* ((built (sample-validity projection nil '()))
            (settled (projection:settle projection))
@@ -260,6 +265,8 @@ the same bits, provided that the plan does not read global variables that it wri
                                            #())
                          :hash (projection:state-hash projection)
                          :seconds (float (projection:simulated-seconds projection) 1d0))))
+        (when observer
+          (projection:watch-projection projection observer))
         (if (eq validity :valid)
             (let* ((monitor (make-instance 'monitor
                                            :domain domain :projection projection
@@ -268,6 +275,8 @@ the same bits, provided that the plan does not read global variables that it wri
                                                          :none)))
                    (ending (let ((*standard-output* output))
                              (run-monitored monitor plan arguments))))
+              (when observer
+                (funcall observer projection nil nil))
               (result ending (reverse (monitor-steps monitor))))
             (result :not-run '()))))))
 
@@ -281,30 +290,37 @@ the same bits, provided that the plan does not read global variables that it wri
     (error 'invalid-argument :name 'state :value state
                              :expected "a list of (body axis number ...)")))
 
-(defun run-plan (plan &key domain state parameters arguments)
-  "Run PLAN (a symbol) concretely in DOMAIN (a domain or its name) and return the RUN.  STATE is a
-list of (BODY axis value ...), such as ((box :x 1.3 :y 0.41)); what it leaves out is as in the
-scene.  PARAMETERS is a property list of scene parameters, ARGUMENTS are the plan's.  Signals
-PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, UNKNOWN-BODY, UNKNOWN-PARAMETER, INVALID-ARGUMENT."
+(defun state-sample (scene state seed)
+  "Return the sample of SCENE in which the bodies have the coordinates in STATE, the argument of
+RUN-PLAN, and the tolerances the values that SEED draws, or those in the middle if it is NIL."
   (check-state-argument state)
-  (let* ((plan (plan:plan-name (ensure-plan plan)))
-         (domain (domain-with-parameters (ensure-domain domain) parameters))
-         (values '())
-         (coordinates
-           (loop for (body . coordinates) in state
+  (draw-sample
+   (append (loop for (body . coordinates) in state
                  append (loop for (axis value) on coordinates by #'cddr
                               do (unless (and (assoc axis *axes*) (realp value))
-                                   (error 'invalid-argument
-                                          :name 'state :value (list body axis value)
-                                          :expected "(body axis number)"))
-                                 (projection:check-movable (domain-scene domain) body)
-                                 (push (decimal-double value) values)
+                                   (error 'invalid-argument :name 'state
+                                                            :value (list body axis value)
+                                                            :expected "(body axis number)"))
+                                 (projection:check-movable scene body)
                               collect (make-parameter (ec:name-keyword body) axis
                                                       (decimal-double value)
-                                                      (decimal-double value))))))
+                                                      (decimal-double value))))
+           (and seed (tolerance-parameters scene)))
+   (or seed 0) 0 0))
+
+(defun run-plan (plan &key domain state parameters arguments seed (fidelity :fast) observer)
+  "Run PLAN (a symbol) concretely in DOMAIN (a domain or its name) and return the RUN.  STATE is a
+list of (BODY axis value ...), such as ((box :x 1.3 :y 0.41)); what it leaves out is as in the
+scene.  PARAMETERS is a property list of scene parameters, ARGUMENTS are the plan's.  With SEED, an
+integer, the tolerances of the scene that PARAMETERS does not give are drawn; else they are in the
+middle of their ranges.  FIDELITY is :FAST or :FULL, OBSERVER as for EXECUTE-SAMPLE.  Signals
+PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, UNKNOWN-BODY, UNKNOWN-PARAMETER, INVALID-ARGUMENT."
+  (let* ((plan (plan:plan-name (ensure-plan plan)))
+         (domain (domain-with-parameters (ensure-domain domain) parameters))
+         (sample (state-sample (domain-scene domain) state seed)))
     (check-plan-arguments plan arguments)
-    (execute-sample domain plan (make-sample 0 coordinates (coerce (nreverse values) 'vector))
-                    :arguments arguments :output *standard-output*)))
+    (execute-sample domain plan sample :arguments arguments :output *standard-output*
+                                       :fidelity fidelity :observer observer)))
 
 (defun check-plan-arguments (plan arguments)
   "Signal INVALID-ARGUMENT unless PLAN (a symbol) can be called with the list ARGUMENTS."

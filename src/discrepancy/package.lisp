@@ -15,10 +15,10 @@ search, replay.")
    ;; domains: theory, scene, abstraction, action bindings
    #:define-abstraction #:domain #:domain-scene #:domain-file #:domain-regions
    #:domain-with-parameters #:load-domain
-   #:region #:region-name #:region-bounds #:inside-region-p
+   #:region #:region-name #:region-description #:region-bounds #:inside-region-p
    #:discrete-state #:observed-fluents
    ;; random numbers
-   #:philox #:content-hash #:unit-float
+   #:philox #:content-hash #:unit-float #:unit-point #:*samplers*
    ;; samples
    #:parameter #:parameter-name #:parameter-min #:parameter-max
    #:parameter-body #:parameter-axis #:tolerance-p
@@ -29,6 +29,7 @@ search, replay.")
    #:run-seconds #:run-validity #:run-tolerances #:run-final-values #:run-ending
    #:run-step #:run-step-designator #:run-step-outcome #:run-step-state
    #:run-step-failure #:run-text
+   #:run-in-scene #:scene-run #:scene-run-ending #:scene-run-hash #:scene-run-text
    #:judge-run #:judgement #:judgement-verdict #:judgement-divergence
    #:divergence #:divergence-step #:divergence-fluents #:divergence-kind
    ;; search

@@ -32,7 +32,7 @@
 
 (defun describe-sample (domain sample stream)
   (format stream "  initial state of the simulation (sample ~d)~%" (sample-index sample))
-  (let ((poses (sample-poses domain sample)))
+  (let ((poses (sample-poses (domain-scene domain) sample)))
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
           do (format stream "    ~a~@[ (~a)~]~%" (value-text parameter value)

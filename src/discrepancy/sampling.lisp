@@ -9,17 +9,24 @@
 
 (in-package #:discrepancy-finder.discrepancy)
 
-(defstruct (parameter (:constructor make-parameter (body axis min max &optional meaning))
+(defstruct (parameter (:constructor make-parameter (body axis min max &optional meaning region))
                       (:copier nil))
-  "The coordinate AXIS of BODY between MIN and MAX (m, rad); or, where BODY is NIL, the tolerance AXIS
+  "The coordinate AXIS of BODY between MIN and MAX (m, rad), in REGION if that is no box; or, where
+BODY is a string, the :POSITION of the joint of this name; or, where BODY is NIL, the tolerance AXIS
 of the scene, with the MEANING that the scene tells."
-  (body nil :type (or null keyword) :read-only t)
+  (body nil :type (or null keyword string) :read-only t)
   (axis nil :type keyword :read-only t)
   (min 0d0 :type double-float :read-only t)
   (max 0d0 :type double-float :read-only t)
-  (meaning nil :type (or null string) :read-only t))
+  (meaning nil :type (or null string) :read-only t)
+  (region nil :type (or null region) :read-only t))
 
-(setf (documentation 'parameter-min 'function)
+(setf (documentation 'parameter-body 'function)
+      "Return the body of a parameter (a keyword), the name of its joint (a string), or NIL if it is a
+tolerance."
+      (documentation 'parameter-axis 'function)
+      "Return the axis of a parameter, :POSITION of a joint, or the name of a tolerance."
+      (documentation 'parameter-min 'function)
       "Return the least value of a parameter (m, rad, or the unit of the tolerance)."
       (documentation 'parameter-max 'function)
       "Return the bound (m, rad) that the values of a parameter do not reach.")
@@ -29,10 +36,12 @@ of the scene, with the MEANING that the scene tells."
   (null (parameter-body parameter)))
 
 (defun parameter-name (parameter)
-  "Return the name of PARAMETER, such as \"box.x\", or \"grip-force\" for a tolerance."
-  (format nil "~@[~a.~]~(~a~)"
-          (and (parameter-body parameter) (ec:name-text (parameter-body parameter)))
-          (parameter-axis parameter)))
+  "Return the name of PARAMETER, such as \"box.x\", \"drawer_1_joint\" or \"grip-force\"."
+  (let ((body (parameter-body parameter)))
+    (if (stringp body)
+        body
+        (format nil "~@[~a.~]~(~a~)" (and body (ec:name-text body))
+                (parameter-axis parameter)))))
 
 (defmethod print-object ((parameter parameter) stream)
   (print-unreadable-object (parameter stream :type t)
@@ -52,8 +61,11 @@ of the scene, with the MEANING that the scene tells."
 
 (defun value-text (parameter value)
   "Return the text of VALUE of PARAMETER, with its name and its unit."
-  (format nil "~a = ~,4f~:[ ~:[m~;rad~]~;~*~]" (parameter-name parameter) value
-          (tolerance-p parameter) (eq (parameter-axis parameter) :yaw)))
+  (format nil "~a = ~,4f~a" (parameter-name parameter) value
+          (case (parameter-axis parameter)
+            ((:x :y :z) " m")
+            (:yaw " rad")
+            (t ""))))
 
 (defun sample-text (sample)
   "Return the values of SAMPLE with names and units."
@@ -71,8 +83,7 @@ of the scene, with the MEANING that the scene tells."
 
 (defun placement-region (placement state)
   "Return the region that PLACEMENT's fluent names in STATE, a state of the theory, or NIL."
-  (find-if (lambda (region)
-             (ec:fluent-value state (list (placement-fluent placement) (region-name region))))
+  (find-if (lambda (region) (ec:fluent-value state (placement-atom placement region)))
            (placement-regions placement)))
 
 (defun tolerance-parameters (scene)
@@ -81,64 +92,172 @@ are none."
   (loop for (name low high meaning) in (projection:scene-open-tolerances scene)
         collect (make-parameter nil name low high meaning)))
 
+(defun check-hands-empty (domain trace)
+  "Signal SAMPLING-ERROR if an item is held in the initial state of TRACE."
+  (dolist (observer (domain-observers domain))
+    (when (and (attachment-p observer)
+               (ec:fluent-value (symbolic:trace-initial-state trace)
+                                (attachment-atom observer)))
+      (error 'sampling-error :trace trace
+                             :reason (format nil "~a holds initially, and an item in the gripper ~
+                                                  is not sampled"
+                                             (ec:atom-text (attachment-atom observer)))))))
+
+(defun placement-parameters (placement region)
+  "Return the PARAMETERs of the body of PLACEMENT in REGION."
+  (loop for (axis min max) in (placement-coordinates placement)
+        for (nil region-min region-max) = (assoc axis (region-bounds region))
+        collect (make-parameter (placement-body placement) axis
+                                (or min region-min) (or max region-max) nil
+                                (and (not (region-box-p region)) region))))
+
+(defun body-parameters (domain trace body)
+  "Return the PARAMETERs of BODY, of which one placement must hold in the initial state of TRACE."
+  (let* ((placements (remove body (placements domain) :key #'placement-body :test-not #'eq))
+         (held (loop for placement in placements
+                     for region = (placement-region placement
+                                                    (symbolic:trace-initial-state trace))
+                     when region collect (cons placement region))))
+    (cond ((null held)
+           (error 'sampling-error
+                  :trace trace
+                  :reason (format nil "no ~{~a~^ and no ~} holds initially"
+                                  (mapcar (lambda (placement)
+                                            (ec:formula-text (placement-pattern placement)))
+                                          placements))))
+          ((rest held)
+           (error 'sampling-error
+                  :trace trace
+                  :reason (format nil "~a would be in two regions, ~a and ~a" (ec:name-text body)
+                                  (ec:name-text (region-name (cdr (first held))))
+                                  (ec:name-text (region-name (cdr (second held)))))))
+          (t (placement-parameters (car (first held)) (cdr (first held)))))))
+
+(defun joint-parameters (domain trace)
+  "Return the PARAMETERs of the joints that DOMAIN observes, by the initial state of TRACE."
+  (let ((ranges (remove-if-not #'joint-range-p (domain-observers domain)))
+        (state (symbolic:trace-initial-state trace)))
+    (loop for joint in (remove-duplicates (mapcar #'joint-range-joint ranges)
+                                          :test #'string= :from-end t)
+          for ours = (remove joint ranges :key #'joint-range-joint :test-not #'string=)
+          for held = (find-if (lambda (range) (ec:fluent-value state (joint-range-atom range)))
+                              ours)
+          for (min max) = (if held
+                              (list (joint-range-min held) (joint-range-max held))
+                              (some #'joint-range-otherwise ours))
+          when min collect (make-parameter joint :position min max))))
+
 (defun initial-parameters (domain trace)
-  "Return the list of the PARAMETERs of DOMAIN that are sampled for TRACE: coordinates of bodies, then
-tolerances.  Signals SAMPLING-ERROR if the initial state of TRACE says of a body that it is nowhere, or that an item is held."
-  (let ((state (symbolic:trace-initial-state trace)))
-    (dolist (observer (domain-observers domain))
-      (when (and (attachment-p observer) (ec:fluent-value state (attachment-atom observer)))
-        (error 'sampling-error :trace trace
-                               :reason (format nil "~a holds initially, and an item in the gripper ~
-                                                    is not sampled"
-                                               (ec:atom-text (attachment-atom observer))))))
-    (append
-     (loop for placement in (placements domain)
-           for region = (or (placement-region placement state)
-                            (error 'sampling-error
-                                   :trace trace
-                                   :reason (format nil "no ~a holds initially"
-                                                   (ec:name-text (placement-fluent placement)))))
-           append (loop for (axis min max) in (placement-coordinates placement)
-                        for (nil region-min region-max) = (assoc axis (region-bounds region))
-                        collect (make-parameter (placement-body placement) axis
-                                                (or min region-min) (or max region-max))))
-     (tolerance-parameters (domain-scene domain)))))
+  "Return the list of the PARAMETERs of DOMAIN that are sampled for TRACE: coordinates of bodies,
+positions of joints, tolerances.  Signals SAMPLING-ERROR if the initial state of TRACE says of a
+body that it is nowhere or in two places, or that an item is held."
+  (check-hands-empty domain trace)
+  (append (loop for body in (remove-duplicates (mapcar #'placement-body (placements domain))
+                                               :from-end t)
+                append (body-parameters domain trace body))
+          (joint-parameters domain trace)
+          (tolerance-parameters (domain-scene domain))))
+
+(defun final-regions (domain trace)
+  "Return the list of (placement . region) of the regions in which bodies are finally in TRACE."
+  (loop for placement in (placements domain)
+        for region = (placement-region placement (symbolic:trace-final-state trace))
+        when region collect (cons placement region)))
 
 (defun final-parameters (domain trace)
   "Return the list of the PARAMETERs of DOMAIN whose final values the theory bounds in TRACE."
-  (loop for placement in (placements domain)
-        for region = (placement-region placement (symbolic:trace-final-state trace))
-        append (and region
-                    (loop for (axis min max) in (region-bounds region)
-                          collect (make-parameter (placement-body placement) axis min max)))))
+  (loop for (placement . region) in (final-regions domain trace)
+        append (loop for (axis min max) in (region-bounds region)
+                     collect (make-parameter (placement-body placement) axis min max nil
+                                             (and (not (region-box-p region)) region)))))
 
-(defun draw-sample (parameters seed content index)
-  "Return the SAMPLE number INDEX of PARAMETERS: each is uniform between its bounds, a pure function
-of SEED, CONTENT (the hash of the trace) and INDEX."
-  (make-sample index parameters
-               (coerce (loop for parameter in parameters
-                             for draw from 0
-                             collect (+ (parameter-min parameter)
-                                        (* (unit-float seed content index draw)
-                                           (- (parameter-max parameter)
-                                              (parameter-min parameter)))))
-                       '(simple-array double-float (*)))))
+(defun inside-final-regions-p (parameters intervals)
+  "Return true if it is certain that the INTERVALS (LOWER . UPPER) of PARAMETERS lie in the regions
+of their bodies that are no boxes."
+  (let ((groups (remove-duplicates (loop for parameter in parameters
+                                         when (parameter-region parameter)
+                                           collect (cons (parameter-body parameter)
+                                                         (parameter-region parameter)))
+                                   :test #'equal)))
+    (loop for (body . region) in groups
+          always (box-inside-p (loop for parameter in parameters
+                                     for (low . high) in intervals
+                                     when (eq (parameter-body parameter) body)
+                                       collect (list (parameter-axis parameter) low high))
+                               (region-description region)))))
+
+;;; Drawing
+
+(defconstant +attempts+ 10000
+  "A body is tried in so many places of the box around its region before it counts as nowhere.")
+
+(defun drawn-values (parameters units)
+  "Return the values of PARAMETERS at UNITS, a list of numbers from 0 to 1."
+  (loop for parameter in parameters
+        for unit in units
+        collect (+ (parameter-min parameter)
+                   (* unit (- (parameter-max parameter) (parameter-min parameter))))))
+
+(defun redrawn-values (parameters seed content index attempt)
+  "Return the values of PARAMETERS at a later ATTEMPT to draw sample INDEX."
+  (drawn-values parameters (loop for nil in parameters
+                                 for draw from (* attempt 4096)
+                                 collect (unit-float seed content index draw))))
+
+(defun place-of (parameters values body)
+  "Return the pose with the coordinates of BODY that are among the VALUES of PARAMETERS."
+  (flet ((value (axis)
+           (loop for parameter in parameters
+                 for value in values
+                 when (and (eq (parameter-body parameter) body)
+                           (eq (parameter-axis parameter) axis))
+                   return value)))
+    (make-pose (or (value :x) 0d0) (or (value :y) 0d0) (or (value :z) 0d0)
+               :yaw (or (value :yaw) 0d0))))
+
+(defun draw-sample (parameters seed content index &key (sampler :independent))
+  "Return the SAMPLE number INDEX of PARAMETERS, by SAMPLER (samplers.lisp): each is uniform between
+its bounds, those of a body in a region that is no box uniform in it, by rejection; a pure function
+of SEED, CONTENT (the hash of the trace) and INDEX.  Signals SAMPLING-ERROR if a region seems to be
+empty."
+  (let ((values (drawn-values parameters
+                              (unit-point sampler seed content index (length parameters)))))
+    (loop for body in (remove-duplicates (loop for parameter in parameters
+                                               when (parameter-region parameter)
+                                                 collect (parameter-body parameter)))
+          for region = (some (lambda (parameter)
+                               (and (eq (parameter-body parameter) body)
+                                    (parameter-region parameter)))
+                             parameters)
+          do (loop for attempt from 1
+                   until (inside-region-p (place-of parameters values body) region)
+                   do (when (> attempt +attempts+)
+                        (error 'sampling-error
+                               :trace nil
+                               :reason (format nil "no place in region ~a was found in ~d attempts"
+                                               (ec:name-text (region-name region)) +attempts+)))
+                      (setf values
+                            (mapcar (lambda (parameter old new)
+                                      (if (eq (parameter-body parameter) body) new old))
+                                    parameters values
+                                    (redrawn-values parameters seed content index attempt)))))
+    (make-sample index parameters (coerce values '(simple-array double-float (*))))))
 
 (defun pose-with (pose axis value)
   "Return the upright POSE with the coordinate AXIS changed to VALUE."
   (flet ((part (key) (if (eq key axis) value (coordinate pose key))))
     (make-pose (part :x) (part :y) (part :z) :yaw (part :yaw))))
 
-(defun sample-poses (domain sample)
-  "Return the property list of the poses that the bodies of DOMAIN's scene have in SAMPLE."
+(defun sample-poses (scene sample)
+  "Return the property list of the poses that the bodies of SCENE have in SAMPLE."
   (let ((poses '()))
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
           for body = (parameter-body parameter)
-          unless (tolerance-p parameter)
+          when (keywordp body)
             do (setf (getf poses body)
                      (pose-with (or (getf poses body)
-                                    (projection:scene-body-pose (domain-scene domain) body))
+                                    (projection:scene-body-pose scene body))
                                 (parameter-axis parameter) value)))
     poses))
 
@@ -148,3 +267,10 @@ of SEED, CONTENT (the hash of the trace) and INDEX."
         for value across (sample-values sample)
         when (tolerance-p parameter)
           append (list (parameter-axis parameter) value)))
+
+(defun sample-joints (sample)
+  "Return the positions of joints that SAMPLE holds: an association list by their names."
+  (loop for parameter in (sample-parameters sample)
+        for value across (sample-values sample)
+        when (stringp (parameter-body parameter))
+          collect (cons (parameter-body parameter) value)))

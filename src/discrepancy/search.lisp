@@ -17,6 +17,7 @@
    (parameters :initarg :parameters :reader search-parameters)
    (rule :initarg :rule :reader search-rule)
    (seed :initarg :seed :reader search-seed)
+   (sampler :initarg :sampler :reader search-sampler)
    (budget :initarg :budget :reader search-budget)
    (execution :initarg :execution :reader search-execution)
    (compare :initarg :compare :reader search-compare)
@@ -70,7 +71,8 @@
 
 (defstruct (trace-search (:copier nil))
   "The sampling of a trace in progress, by RULE.  DISCREPANCIES are newest first; IN-A-ROW counts
-the rejected samples since the last valid one."
+the rejected samples since the last valid one; PENDING are the values of the present ROUND of
+strata, newest first."
   (search nil :read-only t)
   (trace nil :read-only t)
   (parameters '() :type list :read-only t)
@@ -80,6 +82,8 @@ the rejected samples since the last valid one."
   (rejected 0 :type (integer 0))
   (in-a-row 0 :type (integer 0))
   (left 0 :type (integer 0))
+  (round 0 :type (integer 0))
+  (pending '() :type list)
   (verdict nil)
   (discrepancies '() :type list))
 
@@ -132,11 +136,31 @@ the rejected samples since the last valid one."
       (:next-trace (conclude trace-search :discrepancy "a discrepancy was found"))
       (:stop (conclude trace-search :discrepancy "a discrepancy was found" t)))))
 
+(defun flush-round (trace-search blind-p)
+  "Add the pending samples of TRACE-SEARCH to its evidence."
+  (loop for (initial . final) in (reverse (trace-search-pending trace-search))
+        do (add-sample (trace-search-evidence trace-search)
+                       (make-parameter-sample initial final :blind-p blind-p)))
+  (setf (trace-search-pending trace-search) '()))
+
+(defun add-evidence (trace-search sample run)
+  "Add RUN of SAMPLE, which the theory allows, to the evidence of TRACE-SEARCH: as a blind sample if
+draws are independent, or if it is in a round of strata of which no sample was lost."
+  (let ((sampler (search-sampler (trace-search-search trace-search)))
+        (round (floor (sample-index sample) +cells+)))
+    (when (/= round (trace-search-round trace-search))
+      (flush-round trace-search nil)
+      (setf (trace-search-round trace-search) round))
+    (push (cons (sample-values sample) (run-final-values run))
+          (trace-search-pending trace-search))
+    (cond ((not (eq sampler :stratified)) (flush-round trace-search (eq sampler :independent)))
+          ((= (length (trace-search-pending trace-search)) +cells+)
+           (flush-round trace-search t)))))
+
 (defun note-agreement (trace-search sample run)
   "Ask the confidence rule after RUN of SAMPLE, which the theory allows; conclude if it is
 satisfied."
-  (add-sample (trace-search-evidence trace-search)
-              (make-parameter-sample (sample-values sample) (run-final-values run)))
+  (add-evidence trace-search sample run)
   (let ((verdict (evidence-verdict (trace-search-rule trace-search)
                                    (trace-search-evidence trace-search))))
     (setf (trace-search-verdict trace-search) verdict)
@@ -148,7 +172,8 @@ satisfied."
   (let* ((search (trace-search-search trace-search))
          (trace (trace-search-trace trace-search))
          (sample (draw-sample (trace-search-parameters trace-search) (search-seed search)
-                              (trace-search-content trace-search) index))
+                              (trace-search-content trace-search) index
+                              :sampler (search-sampler search)))
          (run (simulate search sample trace)))
     (cond
       ((not (eq (run-validity run) :valid)) (note-rejection trace-search run))
@@ -193,7 +218,8 @@ Return the TRACE-RESULT, and true if the whole search is to end."
     (error 'invalid-argument :name name :value value :expected expected)))
 
 (defun find-discrepancies (plan &key domain constraint (confidence 0.95d0) (rule :paper) delta
-                                  (seed 1) (budget 1000) parameters arguments (execution :trace)
+                                  (seed 1) (sampler :independent) (budget 1000) parameters
+                                  arguments (execution :trace)
                                   (compare :final) (on-discrepancy :return) (max-paths 10000))
   "Search for a discrepancy between the theory and the scene of DOMAIN along PLAN (a symbol) and
 return a SEARCH-RESULT.
@@ -204,6 +230,8 @@ return a SEARCH-RESULT.
   DELTA           in ]0, 1[, for the last two: the part of a trace's initial region that may be
                   discrepant all the same; NIL: 0.05
   SEED            of the blind samples, an integer of 64 bits
+  SAMPLER         :INDEPENDENT, :STRATIFIED, :SOBOL or :CORNERS; the last two find, but certify
+                  nothing
   BUDGET          the largest number of simulations, but for the one that confirms a discrepancy
   PARAMETERS      property list of scene parameters that differ from the scene's
   ARGUMENTS       list of (parameter boolean), the plan's symbolic arguments
@@ -219,6 +247,8 @@ and what symbolic execution signals."
   (check-argument 'parameters parameters (alexandria:proper-list-p parameters) "a property list")
   (check-argument 'rule rule (symbolp rule) "the name of a confidence rule")
   (check-argument 'seed seed (typep seed '(unsigned-byte 64)) "an integer from 0 to 2^64 - 1")
+  (check-argument 'sampler sampler (member sampler *samplers*)
+                  ":independent, :stratified, :sobol or :corners")
   (check-argument 'budget budget (typep budget '(integer 1)) "a positive integer")
   (check-argument 'execution execution (member execution '(:trace :plan)) ":trace or :plan")
   (check-argument 'compare compare (member compare '(:final :every-step)) ":final or :every-step")
@@ -240,7 +270,8 @@ and what symbolic execution signals."
                           :plan plan :domain domain :parameters parameters
                           :constraint (ec:state-constraint-name
                                        (symbolic:exploration-constraint exploration))
-                          :rule rule-object :seed seed :budget budget :execution execution
+                          :rule rule-object :seed seed :sampler sampler :budget budget
+                          :execution execution
                           :compare compare :on-discrepancy on-discrepancy :context context)))
              (loop for trace = (symbolic:next-trace exploration)
                    while trace

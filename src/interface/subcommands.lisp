@@ -32,6 +32,8 @@
      (("delta") :type string
       :documentation "part of the region that may stay discrepant, for the last two rules (0.05)")
      (("seed") :type integer :documentation "seed of the samples (1)")
+     (("sampler") :type string
+      :documentation "independent, stratified, sobol or corners (independent)")
      (("budget") :type integer :documentation "largest number of simulations (1000)")
      (("set") :type string :list t :optional t
       :documentation "scene parameter, as name=number; may be repeated")
@@ -43,6 +45,7 @@
                        :parameters (parameter-arguments (getf options :set))
                        (append
                         (loop for (key name) in '((:constraint "--constraint") (:rule "--rule")
+                                                  (:sampler "--sampler")
                                                   (:execution "--execution")
                                                   (:compare "--compare"))
                               for text = (getf options key)
@@ -73,19 +76,28 @@
     (if (exploration-complete-p exploration) 0 3)))
 
 (define-subcommand "simulate" (arguments options)
-    ("PLAN [NAME] --domain DOMAIN [OPTION ...]"
+    ("PLAN [NAME] --domain DOMAIN | --scene SCENE [OPTION ...]"
      "Run a plan concretely, from a given state."
      (("domain") :type string :documentation "name of a domain, or its file or folder")
+     (("scene") :type string
+      :documentation "file or folder of a scene, to run in without a domain")
      (("state") :type string :list t :optional t
       :documentation "coordinate of a body, as body.axis=number; may be repeated")
      (("set") :type string :list t :optional t
-      :documentation "scene parameter, as name=number; may be repeated"))
-  (let ((run (run-plan (plan-argument arguments)
-                       :domain (domain-argument options)
-                       :state (state-arguments (getf options :state))
-                       :parameters (parameter-arguments (getf options :set)))))
-    (write-string (discrepancy:run-text run))
-    (if (eq (discrepancy:run-ending run) :finished) 0 3)))
+      :documentation "scene parameter, as name=number; may be repeated")
+     (("seed") :type integer
+      :documentation "draw the scene's tolerances by it (none: the middles of their ranges)")
+     (("fidelity") :type string
+      :documentation "full, which steps everything, or fast (fast)")
+     (("frames") :type string
+      :documentation "folder for pictures, before and after each performed designator"))
+  (let* ((plan (plan-argument arguments))
+         (recorder (and (getf options :frames)
+                        (projection:make-frame-recorder (getf options :frames)))))
+    (prog1 (print-simulation (simulate-plan plan options recorder))
+      (when recorder
+        (format t "~d frames, two pictures each, in ~a~%" (projection:finish-frames recorder)
+                (getf options :frames))))))
 
 (define-subcommand "replay" (arguments options)
     ("FILE"

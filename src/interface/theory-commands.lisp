@@ -43,5 +43,5 @@ Event Calculus Reasoner, others hold define-theory."
      (("horizon") :type integer :documentation "last timepoint (the theory's own, or 3)"))
   (let* ((theory (theory-file-argument arguments "check-theory"))
          (findings (ec:check-theory theory :horizon (getf options :horizon))))
-    (format t "~{~a~%~}~d finding~:p~%" findings (length findings))
+    (format t "~{~a~%~}~d finding~:p in ~a~%" findings (length findings) (ec:counts-text theory))
     (if (find :note findings :key #'ec:finding-severity :test-not #'eq) 1 0)))

@@ -103,6 +103,13 @@ beyond the limit of what it means, or outside of its tolerance."))
                          (:torso "(:torso joint)"))))))
   (:documentation "Signaled when a robot is to do what it has no part for."))
 
+(define-condition picture-error (projection-error)
+  ((reason :initarg :reason :reader picture-error-reason
+           :documentation "What is wrong, as a string without a full stop."))
+  (:report (lambda (condition stream)
+             (format stream "~a." (picture-error-reason condition))))
+  (:documentation "Signaled when a picture cannot be drawn as asked for, or not be written."))
+
 (define-condition unknown-joint (projection-error)
   ((name :initarg :name :reader unknown-joint-name :documentation "The name in question.")
    (scene :initarg :scene :reader unknown-joint-scene :documentation "The scene."))

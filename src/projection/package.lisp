@@ -27,7 +27,7 @@
    #:scene-with-parameters #:normalized-parameters #:scene-body-pose #:check-movable
    #:scene-item-names #:scene-item-type #:scene-item-grasps #:scene-tolerances #:scene-open-tolerances
    #:scene-knows-p
-   #:scene-robot-name
+   #:scene-robot-name #:scene-arm-names #:scene-joint-p
    ;; URDF
    #:read-urdf #:urdf-model #:urdf-model-name #:urdf-model-root #:urdf-model-links
    #:urdf-model-joints #:urdf-link #:urdf-joint
@@ -42,6 +42,8 @@
    #:run-joints #:run-path #:run-base #:run-motion #:pass-time #:move-torso
    #:base-pose-free-p #:plan-base-path
    ;; pictures
+   #:view-world #:viewing-pose #:picture-error #:picture-error-reason
+   #:watch-projection #:recorder #:make-frame-recorder #:frame-observer #:finish-frames
    ;; manipulation
    ;; process modules
    #:execute-designator #:executes-p #:drive-base #:move-arm #:move-head

@@ -91,17 +91,21 @@ zero, and of RESPONSE."
             do (setf (aref coefficients column) (* effect (/ (aref design 0 column) norm)))))
     coefficients))
 
-;;; Factorization of an augmented matrix: the last column is the response
+;;; Factorization of an augmented matrix: the last columns are responses
+
+(deftype matrix () '(simple-array double-float (* *)))
 
 (defun column-product (matrix a b start)
   "Return the dot product of the columns A and B of MATRIX from row START on."
-  (loop for row from start below (array-dimension matrix 0)
+  (declare (type matrix matrix) (type fixnum a b start) (optimize speed (safety 1)))
+  (loop for row of-type fixnum from start below (array-dimension matrix 0)
         sum (* (aref matrix row a) (aref matrix row b)) of-type double-float))
 
 (defun column-norm (matrix column start)
-  (sqrt (column-product matrix column column start)))
+  (sqrt (the (double-float 0d0) (column-product matrix column column start))))
 
 (defun swap-columns (matrix a b)
+  (declare (type matrix matrix))
   (dotimes (row (array-dimension matrix 0))
     (rotatef (aref matrix row a) (aref matrix row b))))
 
@@ -109,26 +113,30 @@ zero, and of RESPONSE."
   "Apply to MATRIX, from row and column PIVOT on, the Householder reflection that makes column
 PIVOT zero below the diagonal.  The column must not be zero; it is left as the reflection's axis
 and the new diagonal element is returned."
+  (declare (type matrix matrix) (type fixnum pivot) (optimize speed (safety 1)))
   (destructuring-bind (rows columns) (array-dimensions matrix)
+    (declare (type fixnum rows columns))
     (let* ((norm (column-norm matrix pivot pivot))
            (head (aref matrix pivot pivot))
            ;; The sign that adds to the head of the axis: no cancellation.
            (diagonal (if (plusp head) (- norm) norm))
            (scale (/ (* norm (+ norm (abs head))))))
+      (declare (double-float norm head diagonal scale))
       (decf (aref matrix pivot pivot) diagonal)
-      (loop for column from (1+ pivot) below columns
-            for amount = (* scale (column-product matrix pivot column pivot))
-            do (loop for row from pivot below rows
+      (loop for column of-type fixnum from (1+ pivot) below columns
+            for amount of-type double-float
+              = (* scale (the double-float (column-product matrix pivot column pivot)))
+            do (loop for row of-type fixnum from pivot below rows
                      do (decf (aref matrix row column) (* amount (aref matrix row pivot)))))
       diagonal)))
 
-(defun factorize (matrix)
-  "Turn the augmented MATRIX into (R | Q'y), R above the diagonal.  Return the rank, the vector of
-the columns' original indices, and the vector of the diagonal of R.  Columns count as dependent on
-those before them if their diagonals are at most 2^-50 max(rows, columns) times the first and
-largest one."
+(defun factorize (matrix responses)
+  "Turn MATRIX, whose last columns are RESPONSES many responses y, into (R | Q'y), R above the
+diagonal.  Return the rank, the vector of the columns' original indices, and the vector of the
+diagonal of R.  Columns count as dependent on those before them if their diagonals are at most
+2^-50 max(rows, columns) times the first and largest one."
   (let* ((rows (array-dimension matrix 0))
-         (columns (1- (array-dimension matrix 1)))
+         (columns (- (array-dimension matrix 1) responses))
          (order (coerce (loop for column below columns collect column) 'simple-vector))
          (diagonal (make-array columns :element-type 'double-float :initial-element 0d0))
          (tolerance 0d0))
@@ -145,9 +153,12 @@ largest one."
         (rotatef (aref order pivot) (aref order column))
         (setf (aref diagonal pivot) (reflect matrix pivot))))))
 
-(defun back-substitute (matrix order diagonal)
-  "Return the solution of the factorized augmented MATRIX, in the original order of its columns."
+(defun back-substitute (matrix order diagonal &optional (response 0))
+  "Return the solution of the factorized MATRIX for the RESPONSE with this number, in the original
+order of its columns."
+  (declare (type matrix matrix))
   (let* ((columns (length order))
+         (right (+ columns response))
          (solution (make-array columns :element-type 'double-float)))
     (loop for row from (1- columns) downto 0
           for rest = (loop for column from (1+ row) below columns
@@ -155,13 +166,13 @@ largest one."
                                   (aref solution (aref order column)))
                              of-type double-float)
           do (setf (aref solution (aref order row))
-                   (/ (- (aref matrix row columns) rest) (aref diagonal row))))
+                   (/ (- (aref matrix row right) rest) (aref diagonal row))))
     solution))
 
 (defun solve (matrix)
   "Return the solution of the augmented MATRIX, which is overwritten, its rank, and the residual sum
 of squares; the solution and the sum are NIL if the rank is too small."
-  (multiple-value-bind (rank order diagonal) (factorize matrix)
+  (multiple-value-bind (rank order diagonal) (factorize matrix 1)
     (let ((columns (1- (array-dimension matrix 1))))
       (if (< rank columns)
           (values nil rank nil)

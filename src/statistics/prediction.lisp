@@ -105,16 +105,16 @@ the way from their middle to a corner."
                                  count)
                          :count count))
           (t
-           (let ((bands (loop for output below outputs collect (fit-band regression output))))
-             (if (every #'identity bands)
+           (let ((bands (fit-bands regression)))
+             (if bands
                  (judge-bands rule bands region count look)
                  (not-yet count "the columns of ~d samples depend on each other" count)))))))
 
 (defun judge-bands (rule bands region count look)
   "Return the verdict of RULE on BANDS after COUNT samples, at LOOK."
   (let* ((confidence (- 1 (look-alpha (rule-alpha rule) look (length bands))))
-         (bounds (loop for input in (band-inputs (first bands))
-                       collect (aref (parameter-region-initial-bounds region) input)))
+         (bounds (remove-if-not (lambda (bounds) (< (car bounds) (cdr bounds)))
+                                (coerce (parameter-region-initial-bounds region) 'list)))
          (freedom (band-freedom (first bands)))
          (t-value (two-sided-t (min confidence (- 1 double-float-negative-epsilon)) freedom))
          (spreads (loop for band in bands collect (sqrt (/ (band-residual-sum band) freedom))))

@@ -84,21 +84,24 @@ two observations of REGRESSION; of fewer observations all."
       (loop for index below (regression-inputs regression) collect index)
       (sort (copy-list (regression-varying regression)) #'<)))
 
-(defun augmented-matrix (regression inputs scale output)
+(defun augmented-matrix (regression inputs scale outputs)
   "Return the matrix of the columns INPUTS of REGRESSION, of SCALE in each observation unless it is
-0, and of OUTPUT."
+0, and of OUTPUTS, a list of numbers."
   (let* ((source (rows-matrix (regression-rows regression)))
          (rows (array-dimension source 0))
-         (columns (+ (length inputs) (if (zerop scale) 1 2)))
-         (matrix (make-array (list rows columns) :element-type 'double-float)))
+         (first-output (+ (length inputs) (if (zerop scale) 0 1)))
+         (matrix (make-array (list rows (+ first-output (length outputs)))
+                             :element-type 'double-float)))
     (dotimes (row rows matrix)
       (loop for input in inputs
             for column from 0
             do (setf (aref matrix row column) (aref source row (1+ input))))
       (unless (zerop scale)
-        (setf (aref matrix row (- columns 2)) (* scale (aref source row 0))))
-      (setf (aref matrix row (1- columns))
-            (aref source row (+ 1 (regression-inputs regression) output))))))
+        (setf (aref matrix row (1- first-output)) (* scale (aref source row 0))))
+      (loop for output in outputs
+            for column from first-output
+            do (setf (aref matrix row column)
+                     (aref source row (+ 1 (regression-inputs regression) output)))))))
 
 (defun constant-values (regression varying)
   "Return the list of (input . value) of the inputs that are not in VARYING."
@@ -121,7 +124,7 @@ REGRESSION."
          (constant (constant-values regression varying))
          (norm (sqrt (loop for (nil . value) in constant
                            sum (* value value) of-type double-float)))
-         (matrix (augmented-matrix regression varying norm output))
+         (matrix (augmented-matrix regression varying norm (list output)))
          (columns (1- (array-dimension matrix 1)))
          (coefficients (make-array (regression-inputs regression)
                                    :element-type 'double-float :initial-element 0d0)))
@@ -139,10 +142,9 @@ REGRESSION."
 ;;; Prediction
 
 (defstruct (band (:copier nil))
-  "An ordinary least-squares fit with an intercept.  INPUTS are the numbers of the inputs that vary,
-SOLUTION their coefficients and the intercept, FACTOR the factorized matrix with its pivots ORDER
-and DIAGONAL, FREEDOM the residual degrees of freedom."
-  (inputs '() :type list :read-only t)
+  "An ordinary least-squares fit with an intercept.  SOLUTION has the coefficients of the inputs that
+vary and, last, the intercept; FACTOR is the factorized matrix with its pivots ORDER and DIAGONAL,
+FREEDOM the residual degrees of freedom."
   (solution nil :read-only t)
   (residual-sum 0d0 :type double-float :read-only t)
   (factor nil :read-only t)
@@ -150,19 +152,21 @@ and DIAGONAL, FREEDOM the residual degrees of freedom."
   (diagonal nil :read-only t)
   (freedom 0 :type integer :read-only t))
 
-(defun fit-band (regression output)
-  "Return the BAND of the OUTPUT with this number of REGRESSION, or NIL and the rank if its columns
-depend on each other or are more than the observations."
-  (let* ((inputs (sort (copy-list (regression-varying regression)) #'<))
-         (matrix (augmented-matrix regression inputs 1d0 output))
-         (columns (1- (array-dimension matrix 1))))
-    (multiple-value-bind (rank order diagonal) (factorize matrix)
-      (if (< rank columns)
-          (values nil rank)
-          (make-band :inputs inputs :solution (back-substitute matrix order diagonal)
-                     :residual-sum (column-product matrix columns columns columns)
-                     :factor matrix :order order :diagonal diagonal
-                     :freedom (- (regression-count regression) columns))))))
+(defun fit-bands (regression)
+  "Return the list of the BANDs of all outputs of REGRESSION, or NIL if its columns depend on each
+other or are more than the observations."
+  (let* ((outputs (loop for output below (regression-outputs regression) collect output))
+         (matrix (augmented-matrix regression (sort (copy-list (regression-varying regression)) #'<)
+                                   1d0 outputs))
+         (columns (- (array-dimension matrix 1) (length outputs))))
+    (multiple-value-bind (rank order diagonal) (factorize matrix (length outputs))
+      (when (= rank columns)
+        (loop for output in outputs
+              for column = (+ columns output)
+              collect (make-band :solution (back-substitute matrix order diagonal output)
+                                 :residual-sum (column-product matrix column column columns)
+                                 :factor matrix :order order :diagonal diagonal
+                                 :freedom (- (regression-count regression) columns)))))))
 
 (defun band-leverage (band point)
   "Return x'(X'X)^-1 x of BAND for the vector POINT = x, the intercept's 1 included and last."

@@ -357,7 +357,7 @@ item was lost, and where it is then."
                     (cube (bullet:add-body world "cube" '(:box 0.1d0 0.1d0 0.1d0)
                                            (geometry:make-pose 0.7d0 0.27d0 0.05d0) :mass 1)))
                (bullet:step-world world 480)
-               (run-carrier carrier fidelity :steps 200 :bases (straight-bases (ramp 200 0.5d0 1)))
+               (run-carrier carrier fidelity :steps 300 :bases (straight-bases (ramp 300 0.5d0 1)))
                (bullet:asleep-p cube)))))
     (is-false (asleep-p :full))
     (is-true (asleep-p :fast))))

@@ -50,7 +50,7 @@
       (refuses "add-body failed: the shape (:BOX 1 1) of body CUP is malformed; it should be ~
 (:box x y z) with positive lengths." (add '(:box 1 1)))
       (refuses "add-body failed: the shape :CONE of body CUP is malformed; it should be a list ~
-that begins with :box, :sphere, :cylinder, :plane or :compound." (add :cone))
+that begins with :box, :sphere, :cylinder, :hull, :plane or :compound." (add :cone))
       (refuses "add-body failed: body CUP is dynamic, but only static bodies can be planes."
                (add '(:plane 0 0 1 0) :mass 1))
       (is (null (bullet:world-bodies world)))
@@ -120,9 +120,13 @@ unit quaternion." (bullet:move-body link pose)))
          (floor (add-floor world))
          (cup (add-cube world :cup 0 1))
          (attachment (bullet:attach floor cup))
+         (joint (bullet:add-joint world :slider nil cup (geometry:make-pose 0 0 1)))
+         (checkpoint (bullet:make-checkpoint world))
          (pose (geometry:identity-pose)))
     (bullet:close-world world)
     (bullet:close-world world)
+    (is-false (bullet:joint-live-p joint))
+    (is (null (bullet:world-joints world)))
     (is-false (bullet:attachment-live-p attachment))
     (is (null (bullet:attachments world)))
     (refuses "step-world failed: the world is closed." (bullet:step-world world))
@@ -135,15 +139,35 @@ unit quaternion." (bullet:move-body link pose)))
                  (bullet:attachment-load ,attachment) (bullet:state-hash ,world)
                  (bullet:read-state ,world ,(bullet:make-state-vector world))
                  (bullet:at-rest-p ,world) (bullet:penetration ,cup ,floor)
-                 (bullet:deepest-penetration ,world))
+                 (bullet:deepest-penetration ,world)
+                 (bullet:attachment-lost-p ,attachment) (bullet:attachment-utilization ,attachment)
+                 (bullet:add-joint ,world :fixed nil ,cup ,pose) (bullet:remove-joint ,joint)
+                 (bullet:joint-position ,joint) (bullet:set-joint-position ,joint 0)
+                 (bullet:set-motor ,joint 1 1) (bullet:joint-load ,joint)
+                 (bullet:pair-distance ,cup ,floor 1) (bullet:touching-p ,cup ,floor)
+                 (bullet:contacts ,cup) (bullet:clearance (,cup) (,floor) 1)
+                 (bullet:sweep ,world (:sphere 1) ,pose ,(geometry:make-pose 1 0 0))
+                 (bullet:make-checkpoint ,world)
+                 (bullet:restore-checkpoint ,world ,checkpoint))
           do (signals bullet:bullet-error (apply function arguments)))))
 
+(defparameter *hull-list*
+  '(:hull (0 0 0) (0.1d0 0 0) (0 0.1d0 0) (0 0 0.1d0) (0.1d0 0.1d0 0.1d0)))
+
 (defun use-worlds (count)
+  "Make, use and close COUNT worlds with a little of everything; return how many."
   (loop repeat count
         do (bullet:with-world (world)
-             (let ((floor (add-floor world)))
-               (bullet:attach floor (add-cube world :cube 0 0.05d0))
-               (bullet:step-world world 3)))
+             (let ((floor (add-floor world))
+                   (drawer (bullet:add-body world :drawer `(:compound (,(at 0 0 0) ,*hull-list*))
+                                            (at 1 0 1)
+                                            :mass 1 :inertial-pose (at 0.1d0 0 0))))
+               (bullet:attach floor (add-cube world :cube 0 0.05d0) :capacity 100)
+               (bullet:add-joint world :slider nil drawer (at 1 0 1))
+               (bullet:step-world world 3)
+               (bullet:restore-checkpoint world (bullet:make-checkpoint world))
+               (bullet:contacts drawer)
+               (bullet:sweep world *hull-list* (at 5 0 1) (at 0 0 1))))
         count t))
 
 (test interrupts-wait-for-the-end-of-a-call
@@ -167,7 +191,12 @@ unit quaternion." (bullet:move-body link pose)))
         (is (= (bullet:state-hash world) (bullet:state-hash (bullet:step-world other steps))))))))
 
 (test many-worlds
-  (is (= 500 (use-worlds 500))))
+  (use-worlds 500)
+  (sb-ext:gc :full t)
+  (let ((before (resident-megabytes)))
+    (is (= 2000 (use-worlds 2000)))
+    (sb-ext:gc :full t)
+    (is (< (- (resident-megabytes) before) 20))))
 
 (test dropped-worlds-are-freed
   (let ((handles (loop repeat 50 collect (bullet::world-handle (bullet:make-world)))))

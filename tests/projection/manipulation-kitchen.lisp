@@ -19,8 +19,8 @@
   (list* :robot (geometry:make-pose x y 0 :yaw yaw) poses))
 
 (defun call-in-kitchen (function poses &rest options)
-  "Return what FUNCTION returns, called with a projection of the kitchen with POSES, settled; NIL and
-the plan failure if it signals one."
+  "Return what FUNCTION returns, called with a projection of the kitchen with POSES, settled; NIL
+and the plan failure if it signals one."
   (let ((projection (apply #'projection:make-projection (manipulation-scene) :poses poses
                            options)))
     (unwind-protect (progn (projection:settle projection)
@@ -51,8 +51,8 @@ the plan failure if it signals one."
   (geometry:pose-z (projection:observed-pose projection name)))
 
 (defun picked-up-and-placed (item poses x y z)
-  "Pick up ITEM and place it at X, Y, Z; return true if that is done, how high it was lifted, and how
-far (m) it is from there."
+  "Pick up ITEM and place it at X, Y, Z; return true if that is done, how high it was lifted, and
+how far (m) it is from there."
   (call-in-kitchen
    (lambda (projection)
      (let ((before (items-height projection item)))
@@ -143,8 +143,8 @@ second drawer and goes along."
 ;;; Failures
 
 (defun failure-in-kitchen (poses &rest designators)
-  "Return the name of the class of the plan failure, and the failure, that performing DESIGNATORS one
-after the other signals."
+  "Return the name of the class of the plan failure, and the failure, that performing DESIGNATORS
+one after the other signals."
   (multiple-value-bind (done failure)
       (call-in-kitchen (lambda (projection)
                          (dolist (designator designators t)
@@ -221,8 +221,8 @@ after the other signals."
 ;;; Grips
 
 (defun grip-of-milk (force)
-  "Return the utilization of the grip on the milk at rest after it was lifted, or NIL and the failure
-if it was lost, with FORCE (N) of each finger."
+  "Return the utilization of the grip on the milk at rest after it was lifted, or NIL and the
+failure if it was lost, with FORCE (N) of each finger."
   (call-in-kitchen (lambda (projection)
                      (perform-in projection (picking-up-item :milk '(:arm :left)
                                                              (list :effort force)))

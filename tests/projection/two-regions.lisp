@@ -240,7 +240,7 @@
 
 (test what-is-wrong-in-a-scene-file-is-named
   (with-file (file "(define-scene s (:item box \"nothing.urdf\" (:at 0 0 0)))")
-    (signals-with (projection:urdf-error "nothing.urdf" "no such file")
+    (signals-with (projection:scene-error file ":1: " "nothing.urdf" "no such file")
       (projection:load-scene file)))
   (let ((box (root-file "models/two-regions/box.urdf")))
     (scene-problem-of "(define-scene s (:item box #.(print 1)))" ":1: " "#.")

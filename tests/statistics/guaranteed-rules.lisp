@@ -105,7 +105,7 @@ observations that were compressed."
                  (loop for input from 1 to 3
                        collect (nth-value 1 (floor (* index (sqrt (+ 0.3d0 input)))))))
                 (double-vector (list (sin index)))))
-      (let* ((bands (list (statistics::fit-band regression 0)))
+      (let* ((bands (statistics::fit-bands regression))
              (bounds '((0d0 . 1d0) (0d0 . 1d0) (0d0 . 1d0)))
              (exact (first (statistics::corner-intervals bands bounds '(2d0))))
              (bound (first (statistics::bounded-intervals bands bounds '(2d0)))))

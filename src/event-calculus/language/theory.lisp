@@ -101,12 +101,23 @@ all axioms."
       (documentation 'theory-state-constraints 'function)
       "Return the list of the state constraints of a theory.")
 
+(defun theory-counts (theory)
+  "Return the size of THEORY: the list of the numbers of its sorts, predicates of its own, fluents,
+events and axioms."
+  (mapcar #'length (list (theory-sorts theory) (theory-predicates theory)
+                         (theory-fluents theory) (theory-events theory)
+                         (theory-axioms theory))))
+
+(defun counts-text (theory)
+  "Return the size of THEORY in words, such as 1 sort, 3 fluents, 3 events, 17 axioms; predicates of
+its own are left out where there are none."
+  (destructuring-bind (sorts predicates fluents events axioms) (theory-counts theory)
+    (format nil "~d sort~:p, ~[~:;~:*~d predicate~:p, ~]~d fluent~:p, ~d event~:p, ~d axiom~:p"
+            sorts predicates fluents events axioms)))
+
 (defmethod print-object ((theory theory) stream)
   (print-unreadable-object (theory stream :type t)
-    (format stream "~a: ~d sort~:p, ~d fluent~:p, ~d event~:p, ~d axiom~:p"
-            (name-text (theory-name theory)) (length (theory-sorts theory))
-            (length (theory-fluents theory)) (length (theory-events theory))
-            (length (theory-axioms theory)))))
+    (format stream "~a: ~a" (name-text (theory-name theory)) (counts-text theory))))
 
 (defvar *theories* (make-hash-table :test 'eq)
   "The theory of each name, a keyword.")

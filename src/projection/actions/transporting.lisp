@@ -2,11 +2,6 @@
 
 (in-package #:discrepancy-finder.projection)
 
-(defun free-arm ()
-  "Return :left or :right, an arm that holds nothing in the projection in which a plan runs."
-  (let ((projection (plan:current-executive)))
-    (if (and (typep projection 'projection) (held-item projection :left)) :right :left)))
-
 (def-cram-function find-and-fetch (?object ?location ?arm)
   "Search for the object ?OBJECT at ?LOCATION, fetch it and return its new designator."
   (let ((?found (perform (an action (type searching) (object ?object) (location ?location)))))
@@ -21,8 +16,6 @@ happens."
               (progn
                 (perform (an action (type accessing) (location ?location) (distance 0.3)))
                 (unwind-protect (find-and-fetch ?object ?location ?arm)
-                  (let ((?free-arm (free-arm)))
-                    (perform (an action (type sealing) (location ?location) (arm ?free-arm)
-                                 (distance 0.3))))))
+                  (perform (an action (type sealing) (location ?location) (distance 0.3)))))
               (find-and-fetch ?object ?location ?arm))))
     (perform (an action (type delivering) (object ?fetched) (target ?target)))))

@@ -2,13 +2,14 @@
 ;;;;
 ;;;; An ARM is what the scene says of one (ARM-ROLES), with the numbers of the robot's frames in the
 ;;;; place of names.  POSITIONS are vectors with a position (m or rad) for each frame of the robot,
-;;;; as in JOINT-POSITIONS.  A configuration is free if the arm and what it holds touch nothing there.
+;;;; as in JOINT-POSITIONS.  A configuration is free if the arm and what it holds touch nothing
+;;;; there.
 
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (arm (:copier nil))
-  "An arm of a robot: numbers of frames.  LINKS are all that its joints move, HAND-LINKS those behind
-the last one, BLOCKERS the other links of the robot that it could touch; TORSO is NIL without one."
+  "An arm of a robot: numbers of frames.  LINKS are all that its joints move, HAND-LINKS those
+behind the last one, BLOCKERS the other links of the robot that it could touch; TORSO is NIL without one."
   (name nil :type keyword :read-only t)
   (joints '() :type list :read-only t)
   (tool 0 :type fixnum :read-only t)
@@ -42,7 +43,6 @@ the last one, BLOCKERS the other links of the robot that it could touch; TORSO i
                 :fingers (mapcar #'number (arm-roles-fingers roles))
                 :links links
                 :hand-links (frames-below robot (first (last joints)))
-                ;; The first links of an arm turn in the torso's sides.
                 :blockers (loop for number below (length (robot-frames robot))
                                 unless (member number links) collect number)
                 :torso (frame-number robot :torso)
@@ -178,24 +178,24 @@ IGNORED."
                        (mapcar #'cdr (projection-items projection))
                        (arm-bodies projection (arm-blockers arm))))))
 
-(defparameter *planning-clearance* 2d-3
+(defparameter *planning-clearance* 1.5d-3
   "Configurations in which an arm is nearer than this (m) to something are not chosen.")
 
-(defun free-p (projection arm positions &key ignored (links (cddr (arm-links arm))))
-  "Return true if the LINKS of ARM, without its first two, and what it holds touch nothing at
-POSITIONS but the bodies IGNORED."
+(defun free-p (projection arm positions &key ignored (carried t))
+  "Return true if the links of ARM but its first two, which turn in the torso's sides, touch nothing
+at POSITIONS but the bodies IGNORED, and with CARRIED what it holds neither."
   (let ((robot (projection-robot projection)))
     (> (bullet:mechanism-clearance (robot-mechanism robot) (base-pose robot) positions
-                                   (append (arm-bodies projection links)
-                                           (carried-bodies projection arm))
+                                   (append (arm-bodies projection (cddr (arm-links arm)))
+                                           (and carried (carried-bodies projection arm)))
                                    (arm-obstacles projection arm :ignored ignored)
                                    (* 2 *planning-clearance*))
        *planning-clearance*)))
 
-(defun way-free-p (projection arm start goal &key ignored)
+(defun way-free-p (projection arm start goal)
   "Return true if ARM can go straight in joint space from START to GOAL."
   (let ((robot (projection-robot projection)))
     (null (bullet:path-contact (robot-mechanism robot) (base-pose robot) start goal
                                  (append (arm-bodies projection (cddr (arm-links arm)))
                                          (carried-bodies projection arm))
-                                 (arm-obstacles projection arm :ignored ignored)))))
+                                 (arm-obstacles projection arm)))))

@@ -1,16 +1,16 @@
 ;;;; Containers: actions of type opening and closing with an object.
 ;;;;
-;;;; A container is what a movable joint of a fixture carries: a drawer, a door.  A hand takes hold of
-;;;; its handle, the link fixed to it that has "handle" in its name, and moves as the joint lets it.
+;;;; A container is what a movable joint of a fixture carries: a drawer, a door.  A hand takes hold
+;;;; of its handle, the link fixed to it that has "handle" in its name, and moves as the joint lets it.
 ;;;; The motor of the joint follows the hand, with the force that the fingers can bear; the world is
-;;;; stepped all along, so that the contents come along by friction and by the walls, and whatever is
-;;;; in the way stops the container.
+;;;; stepped all along, so that the contents come along by friction and by the walls, and whatever
+;;;; is in the way stops the container.
 
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (container (:copier nil))
-  "The movable part of a FIXTURE (a name): its JOINT in the world, the joint of the model URDF-JOINT,
-the link HANDLE of the model."
+  "The movable part of a FIXTURE (a name): its JOINT in the world, the joint of the model
+URDF-JOINT, the link HANDLE of the model."
   (fixture nil :type keyword :read-only t)
   (joint nil :read-only t)
   (urdf-joint nil :type urdf-joint :read-only t)
@@ -201,8 +201,7 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
   "Move CONTAINER by DISTANCE with ARM as REACH has it."
   (let* ((joint (container-joint container))
          (before (bullet:joint-position joint)))
-    (move-gripper projection arm (nth-value 1 (gripper-limits projection arm)))
-    (follow projection arm (reach-way reach))
+    (follow projection arm (reach-way reach) :opening t)
     (follow projection arm (reach-line reach) :watch :allow-hand :smoothly t)
     (grip projection arm)
     (let ((problem (haul projection container (reach-leaving reach) distance)))

@@ -2,10 +2,10 @@
 ;;;;
 ;;;; A gripper's frame, its tool, has the direction of approach as its x axis and the direction in
 ;;;; which the fingers close as its y axis; its origin is between the pads of the fingers.  A GRASP
-;;;; is a pose of the tool in the frame of the thing.  FIND-GRASPS makes them from the thing's shape,
-;;;; as a whole and in its parts: wherever it is thin enough for the open gripper it is approached
-;;;; from all sides at right angles to that.  Each is tried out: the open hand must get there without
-;;;; touching the thing, and have it between its pads then.  So a bowl is grasped at its rim, a
+;;;; is a pose of the tool in the frame of the thing.  FIND-GRASPS makes them from the thing's
+;;;; shape, as a whole and in its parts: wherever it is thin enough for the open gripper it is approached
+;;;; from all sides at right angles to that.  Each is tried out: the open hand must get there
+;;;; without touching the thing, and have it between its pads then.  So a bowl is grasped at its rim, a
 ;;;; box at its sides and its top, a handle from the front.
 ;;;; The names of the sides are those of CRAM, in the thing's own frame: x is the front, y the left
 ;;;; side, z the top.
@@ -36,7 +36,7 @@ the frame of the thing, DEPTH how far (m) the tool comes along its x axis until 
 (defparameter *finger-clearance* 2d-3
   "How far (m) each finger of the open gripper is from what it is to grasp, at the least.")
 
-(defparameter *tip-clearance* 3d-3
+(defparameter *tip-clearance* 5d-3
   "How far (m) the tips of the fingers stay before the far side of what they grasp: behind it may be
 what it lies on.")
 
@@ -72,7 +72,8 @@ what it lies on.")
          (second (cross closing first)))
     (loop for step below +approach-angles+
           for angle = (/ (* 2 pi step) +approach-angles+)
-          collect (unit (mapcar #'+ (stretched first (cos angle)) (stretched second (sin angle)))))))
+          collect (unit (mapcar #'+ (stretched first (cos angle))
+                                (stretched second (sin angle)))))))
 
 (defun middle (shape pose direction)
   "Return the middle of the extent of SHAPE, at POSE, along DIRECTION, and half of its length."

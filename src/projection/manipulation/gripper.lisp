@@ -151,8 +151,8 @@ between the pads, GRIPPER-GOAL-NOT-REACHED if it holds something already."
 ;;; The process modules
 
 (defun designated-arms (projection designator key)
-  "Return the arms that the value of KEY in DESIGNATOR, a name or a list of names, means; all of them
-if it is NIL."
+  "Return the arms that the value of KEY in DESIGNATOR, a name or a list of names, means; all of
+them if it is NIL."
   (let ((names (alexandria:ensure-list (plan:desig-prop-value designator key))))
     (if names
         (loop for name in names

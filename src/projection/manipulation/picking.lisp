@@ -33,7 +33,7 @@
     (if pose (pose-position pose) '(0d0 0d0 0d0))))
 
 (defun expected-parameter (projection name)
-  "Return the value of the parameter NAME as far as the robot knows: in the middle of its tolerance."
+  "Return the value of the parameter NAME as far as the robot knows: the middle of its tolerance."
   (let ((tolerance (assoc name (scene-tolerances (projection-scene projection)))))
     (if tolerance
         (/ (+ (second tolerance) (third tolerance)) 2)
@@ -85,8 +85,8 @@ first.  SIDES is a list of the sides that are allowed, or NIL for all."
       (subseq sorted 0 (min *grasps-tried* (length sorted))))))
 
 (defun free-arms (projection names pose)
-  "Return the arms of PROJECTION's robot that hold nothing, the one nearest to POSE first; only those
-with NAMES unless that is NIL."
+  "Return the arms of PROJECTION's robot that hold nothing, the one nearest to POSE first; only
+those with NAMES unless that is NIL."
   (flet ((distance (arm)
            (let ((way (mapcar #'- (pose-position pose)
                               (shoulder-position projection arm
@@ -165,8 +165,7 @@ sides and of lists (side x y z), with a point of the item; NIL for anywhere."
                                       (mapcar #'cdr (held-items projection)))))
     (let* ((reach (find-grasp projection arms item pose (wanted-sides projection designator item)))
            (arm (reach-arm reach)))
-      (move-gripper projection arm (nth-value 1 (gripper-limits projection arm)))
-      (follow projection arm (reach-way reach))
+      (follow projection arm (reach-way reach) :opening t)
       (follow projection arm (reach-line reach) :ignore (list body) :smoothly t)
       (let ((gripped (grip projection arm (wanted-effort designator))))
         (unless (eq gripped item)
@@ -181,8 +180,8 @@ sides and of lists (side x y z), with a point of the item; NIL for anywhere."
       item)))
 
 (defun note-relation (projection arm relation)
-  "Note that the tool of ARM has the pose RELATION in the frame of what it holds, as far as the robot
-knows."
+  "Note that the tool of ARM has the pose RELATION in the frame of what it holds, as far as the
+robot knows."
   (setf (getf (projection-memory projection) (arm-name arm)) relation))
 
 (defun held-relation (projection arm)

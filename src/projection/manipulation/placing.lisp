@@ -1,8 +1,8 @@
 ;;;; Placing and parking: actions of type placing and parking-arms.
 ;;;;
 ;;;; What an arm holds is brought over its target, put down to a little above it, and let go: how it
-;;;; comes to rest is Bullet's business.  It is turned as the target's pose is, or, if the arm cannot
-;;;; do that, about the vertical as little as possible.
+;;;; comes to rest is Bullet's business.  It is turned as the target's pose is, or, if the arm
+;;;; cannot do that, about the vertical as little as possible.
 
 (in-package #:discrepancy-finder.projection)
 
@@ -74,8 +74,8 @@ possible."
 
 (defun put-down (projection arm item reach)
   "Lower ITEM, which ARM holds, along the line of REACH until it touches something or is there.
-Signals MANIPULATION-GOAL-NOT-REACHED if it touches something before, GRIPPER-CLOSED-COMPLETELY if it
-is lost."
+Signals MANIPULATION-GOAL-NOT-REACHED if it touches something before, GRIPPER-CLOSED-COMPLETELY if
+it is lost."
   (let ((body (item-body projection item)))
     (multiple-value-bind (reason bodies)
         (run-smoothly projection (with-present-grippers projection (reach-line reach))
@@ -116,26 +116,35 @@ is lost."
     (nearest-turns (projection-robot projection) (arm-joints arm) positions
                    (joint-positions (projection-robot projection)))))
 
-(defun carrying-positions (projection arm)
-  "Return positions in which ARM holds what it holds as upright as it does now, where its tool is
-when it is parked or in front of the robot; NIL if there are none."
-  (let* ((present (joint-positions (projection-robot projection)))
-         (tool (tool-pose projection arm))
+(defparameter *carrying-height* 0.95d0
+  "The height (m) of a hand that carries something, at least, if that is possible: above tables.")
+
+(defun carrying-poses (projection arm)
+  "Return poses of the tool of ARM in front of the robot in which it holds what it holds as upright
+as now."
+  (let* ((tool (tool-pose projection arm))
          (base (base-pose (projection-robot projection)))
-         (side (if (plusp (pose-y (compose (inverse base) (tool-pose projection arm
-                                                                     (parked-positions-of
-                                                                      projection arm)))))
-                   1 -1))
-         (height (pose-z tool)))
-    (loop for angle in (turns)
-          do (loop for (x y) in '((0.45 0.2) (0.5 0.1) (0.5 0.3) (0.55 0.2) (0.6 0.2))
-                   for place = (compose base (make-pose x (* side y) 0))
-                   for pose = (moved (turned-about-vertical tool angle)
-                                     (mapcar #'- (list (pose-x place) (pose-y place) height)
-                                             (pose-position tool)))
-                   do (dolist (positions (solve projection arm pose present :restarts 1))
-                        (when (free-p projection arm positions)
-                          (return-from carrying-positions positions)))))))
+         (parked (compose (inverse base)
+                          (tool-pose projection arm (parked-positions-of projection arm))))
+         (side (if (plusp (pose-y parked)) 1 -1)))
+    (loop for height in (remove-duplicates (list (max (pose-z tool) *carrying-height*)
+                                                 (pose-z tool)))
+          append (loop for angle in (turns)
+                       append (loop for (x y) in '((0.45 0.2) (0.5 0.1) (0.5 0.3) (0.55 0.2)
+                                                   (0.6 0.2))
+                                    for place = (compose base (make-pose x (* side y) 0))
+                                    collect (moved (turned-about-vertical tool angle)
+                                                   (list (- (pose-x place) (pose-x tool))
+                                                         (- (pose-y place) (pose-y tool))
+                                                         (- height (pose-z tool)))))))))
+
+(defun carrying-positions (projection arm)
+  "Return positions of ARM in one of its CARRYING-POSES, or NIL if none is possible."
+  (let ((present (joint-positions (projection-robot projection))))
+    (dolist (pose (carrying-poses projection arm) nil)
+      (let ((positions (first (solve projection arm pose present :restarts 1))))
+        (when (and positions (free-p projection arm positions))
+          (return positions))))))
 
 (defun joints-of-arm (projection arm)
   "Return the list of the positions (m or rad) of the joints of ARM."

@@ -32,55 +32,89 @@ is what the plan is for, as it was given to FIND-REACH."
     (pose-position (bullet:forward-kinematics (robot-mechanism robot) (base-pose robot) positions
                                               (first (arm-joints arm))))))
 
-(defun within-length-p (projection arm positions pose)
+(defun conceivable-p (projection arm positions pose)
+  "Return true if ARM is long enough to get to POSE, and its hand would not point back to the shoulder
+there; what else is possible is up to inverse kinematics."
   (let ((way (mapcar #'- (pose-position pose) (shoulder-position projection arm positions))))
-    (<= (sqrt (dot way way)) (arm-length projection arm))))
+    (and (<= (sqrt (dot way way)) (arm-length projection arm))
+         (>= (dot way (turned pose '(1d0 0d0 0d0))) 0))))
 
-(defun reach-from (projection arm goal tool begin end start ignored target effort)
-  "Return a REACH of ARM with its tool at TOOL, coming from BEGIN and leaving to END, a pose or a
-list of poses on the way, by a configuration near START; or NIL and why not, :UNREACHABLE or
-:COLLISION.  EFFORT is a list of keyword arguments of SOLVE."
+(defparameter *support-distance* 0.015d0
+  "What is to be put down must be free this much (m) higher; below is what it is put on.")
+
+(defun carried-free-p (projection arm positions tool)
+  "Return true if what ARM holds would touch nothing a little above where it is at POSITIONS, with
+the tool at the pose TOOL; or if it holds nothing."
+  (or (null (carried-bodies projection arm))
+      (let ((above (first (solve projection arm (moved tool (list 0d0 0d0 *support-distance*))
+                                 positions :restarts 0))))
+        (and above (free-p projection arm above)))))
+
+(defun lines-from (projection arm there candidate)
+  "Return the ways of ARM from the configuration THERE back to where CANDIDATE comes from and on to
+where it leaves to; or NIL if there are none."
+  (destructuring-bind (goal tool begin end) candidate
+    (declare (ignore goal))
+    (let ((back (straight-way projection arm there tool begin))
+          (leaving (if (listp end)
+                       (way-through projection arm there end)
+                       (straight-way projection arm there tool end))))
+      (and back leaving
+           ;; From a handle the hand has to get away where it has come to.
+           (or (not (listp end))
+               (let ((last (first (last end))))
+                 (straight-way projection arm (first (last leaving)) last
+                               (advanced last (- *approach-distance*)))))
+           (values back leaving)))))
+
+(defun lines-free-p (projection arm there candidate target back leaving)
+  "Return true if ARM touches nothing but the bodies TARGET on the ways that LINES-FROM returns, and
+nothing at all where these begin."
+  (destructuring-bind (goal tool begin end) candidate
+    (declare (ignore goal begin))
+    (flet ((free-all-p (ways &rest ignored)
+             (loop for positions in ways
+                   always (free-p projection arm positions :ignored (append target ignored)))))
+      (and (free-p projection arm (first (last back)))
+           (free-p projection arm there :ignored target :carried nil)
+           (carried-free-p projection arm there tool)
+           (free-all-p (butlast back))
+           ;; What is in a container moves with it.
+           (apply #'free-all-p leaving
+                  (and (listp end) (mapcar #'cdr (projection-items projection))))))))
+
+(defun reach-from (projection arm candidate start target effort)
+  "Return the REACH of ARM for CANDIDATE, by a configuration near START; or NIL and why there is none.
+EFFORT is a list of keyword arguments of SOLVE."
   (let ((reason :unreachable))
-    (dolist (there (apply #'solve projection arm tool start effort)
+    (dolist (there (apply #'solve projection arm (second candidate) start effort)
                    (values nil reason))
-      (let ((back (straight-way projection arm there tool begin))
-            (leaving (if (listp end)
-                         (way-through projection arm there end)
-                         (straight-way projection arm there tool end))))
-        (when (and back leaving
-                   ;; From a handle the hand has to get away where it has come to.
-                   (or (not (listp end))
-                       (straight-way projection arm (first (last leaving)) (first (last end))
-                                     (advanced (first (last end)) (- *approach-distance*)))))
+      (multiple-value-bind (back leaving) (lines-from projection arm there candidate)
+        (when back
           (setf reason :collision)
-          (let ((before (first (last back))))
-            (when (and (free-p projection arm before :ignored ignored)
-                       (loop with ignored = (append target ignored)
-                             for positions in (list* there (append (butlast back) leaving))
-                             always (free-p projection arm positions :ignored ignored)))
-              (let ((way (plan-way projection arm (reaching-positions projection arm) before
-                                   :ignored ignored)))
-                (when way
-                  (return (values (make-reach :arm arm :goal goal :tool tool :way way
-                                              :line (append (rest (reverse back)) (list there))
-                                              :leaving leaving)
-                                  nil)))))))))))
+          (let ((way (and (lines-free-p projection arm there candidate target back leaving)
+                          (plan-way projection arm (reaching-positions projection arm)
+                                    (first (last back))))))
+            (when way
+              (return (make-reach :arm arm :goal (first candidate) :tool (second candidate)
+                                  :way way :line (append (rest (reverse back)) (list there))
+                                  :leaving leaving)))))))))
 
-(defun find-reach (projection arm candidates &key ignored target)
-  "Return the first REACH of ARM that there is for CANDIDATES, lists of a goal and the poses of the
-tool there, before and afterwards; or NIL and why there is none, :UNREACHABLE or :COLLISION.  The
-bodies IGNORED may be touched all the time, those of TARGET from the straight line on."
+(defun find-reach (projection arm candidates &key target)
+  "Return the first REACH of ARM that there is for CANDIDATES, lists of a goal, the pose of the tool
+there, the pose from where the hand comes, and the pose to where it leaves or a list of poses on the
+way there; or NIL and why there is none, :UNREACHABLE or :COLLISION.  The bodies TARGET may be touched
+from where the hand comes on."
   (let ((reason :unreachable) (heights (or (torso-heights projection arm) '(nil))))
     (dolist (effort *efforts* (values nil reason))
       (dolist (height heights)
         (let ((start (reaching-positions projection arm height)))
-          (loop for (goal tool begin end) in candidates
-                do (when (within-length-p projection arm start tool)
-                     (multiple-value-bind (reach why)
-                         (reach-from projection arm goal tool begin end start ignored target
-                                     effort)
-                       (when reach (return-from find-reach reach))
-                       (when (eq why :collision) (setf reason why))))))))))
+          (dolist (candidate candidates)
+            (when (conceivable-p projection arm start (second candidate))
+              (multiple-value-bind (reach why)
+                  (reach-from projection arm candidate start target effort)
+                (when reach (return-from find-reach reach))
+                (when (eq why :collision) (setf reason why))))))))))
 
 (defun fail-to-reach (reason arms what)
   "Signal the failure for REASON, as FIND-REACH returns it."
@@ -93,14 +127,15 @@ bodies IGNORED may be touched all the time, those of TARGET from the straight li
         (plan:fail 'plan:manipulation-pose-unreachable
                    :description (format nil "~a cannot reach ~a" names what)))))
 
-(defun with-present-grippers (projection way)
-  "Return WAY with the grippers as they are now."
-  (let ((present (joint-positions (projection-robot projection))))
+(defun with-present-grippers (projection way &key opening)
+  "Return WAY with the grippers as they are now, but for that of the arm OPENING."
+  (let ((present (joint-positions (projection-robot projection)))
+        (grippers (mapcar #'arm-gripper (remove opening
+                                                (robot-arms (projection-robot projection))))))
     (loop for positions in way
           collect (let ((positions (copy-seq positions)))
-                    (dolist (arm (robot-arms (projection-robot projection)) positions)
-                      (setf (aref positions (arm-gripper arm))
-                            (aref present (arm-gripper arm))))))))
+                    (dolist (gripper grippers positions)
+                      (setf (aref positions gripper) (aref present gripper)))))))
 
 (defun fail-to-move (arm bodies)
   "Signal that ARM has stopped because the two BODIES would have touched."
@@ -108,11 +143,12 @@ bodies IGNORED may be touched all the time, those of TARGET from the straight li
              :description (format nil "the ~(~a~) arm stopped where ~a" (arm-name arm)
                                   (contact-text bodies))))
 
-(defun follow (projection arm way &key (watch :all) ignore smoothly)
-  "Move ARM along WAY, without stopping at its configurations if SMOOTHLY is true.  Signals
-MANIPULATION-GOAL-NOT-REACHED where something is touched."
+(defun follow (projection arm way &key (watch :all) ignore smoothly opening)
+  "Move ARM along WAY, without stopping at its configurations if SMOOTHLY is true, and OPENING its
+gripper meanwhile or not.  Signals MANIPULATION-GOAL-NOT-REACHED where something is touched."
   (when way
     (multiple-value-bind (reason bodies)
         (funcall (if smoothly #'run-smoothly #'run-path)
-                 projection (with-present-grippers projection way) :watch watch :ignore ignore)
+                 projection (with-present-grippers projection way :opening (and opening arm))
+                 :watch watch :ignore ignore)
       (when reason (fail-to-move arm bodies)))))

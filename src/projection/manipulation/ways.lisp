@@ -1,8 +1,8 @@
 ;;;; Ways: how an arm gets from one configuration to another, and along a straight line.
 ;;;;
-;;;; A way is a list of vectors of positions, without the one where it begins.  PLAN-WAY goes straight
-;;;; in joint space if that is free; otherwise it grows two trees of free configurations, from the
-;;;; start and from the goal, until they meet.  STRAIGHT-WAY moves the tool along a line.  What is
+;;;; A way is a list of vectors of positions, without the one where it begins.  PLAN-WAY goes
+;;;; straight in joint space if that is free; otherwise it grows two trees of free configurations,
+;;;; from the start and from the goal, until they meet.  STRAIGHT-WAY moves the tool along a line.  What is
 ;;;; random here comes from a generator of its own, so that equal questions have equal answers.
 
 (in-package #:discrepancy-finder.projection)
@@ -39,8 +39,8 @@
         (setf (aref positions number) (+ lower (* (funcall generator) (- upper lower))))))))
 
 (defun toward (from to step)
-  "Return the positions at most STEP (rad or m in each joint) from FROM on the way to TO, and true if
-that is TO."
+  "Return the positions at most STEP (rad or m in each joint) from FROM on the way to TO, and true
+if that is TO."
   (let ((length (loop for a across from for b across to maximize (abs (- a b)))))
     (if (<= length step)
         (values to t)
@@ -53,7 +53,7 @@ that is TO."
   (loop for (positions . parent) = node then parent
         collect positions while parent))
 
-(defun trees-way (projection arm start goal ignored)
+(defun trees-way (projection arm start goal)
   "Return a way from START to GOAL around obstacles, or NIL if none was found."
   (let* ((joints (moving-joints arm start goal))
          (generator (make-generator))
@@ -64,7 +64,7 @@ that is TO."
                (dolist (node tree best)
                  (let ((distance (joint-distance joints (first node) positions)))
                    (when (< distance least) (setf best node least distance))))))
-           (free-way-p (from to) (way-free-p projection arm from to :ignored ignored)))
+           (free-way-p (from to) (way-free-p projection arm from to)))
       (loop repeat *tree-size*
             do (let* ((sample (random-positions projection joints start generator))
                       (node (nearest here sample))
@@ -79,24 +79,23 @@ that is TO."
                (rotatef here there)
                (setf swapped (not swapped))))))
 
-(defun shortened (projection arm start way ignored)
+(defun shortened (projection arm start way)
   "Return WAY, which begins at START, without detours that are not needed."
   (loop with here = start
         while way
         for next = (or (position-if (lambda (positions)
-                                      (way-free-p projection arm here positions :ignored ignored))
+                                      (way-free-p projection arm here positions))
                                     way :from-end t)
                        0)
         collect (setf here (nth next way))
         do (setf way (nthcdr (1+ next) way))))
 
-(defun plan-way (projection arm start goal &key ignored)
-  "Return a way of ARM from START to GOAL on which it touches nothing but the bodies IGNORED, or NIL
-if none is found."
+(defun plan-way (projection arm start goal)
+  "Return a way of ARM from START to GOAL on which it touches nothing, or NIL if none is found."
   (cond ((null (moving-joints arm start goal)) (list goal))
-        ((way-free-p projection arm start goal :ignored ignored) (list goal))
-        (t (let ((way (trees-way projection arm start goal ignored)))
-             (and way (shortened projection arm start way ignored))))))
+        ((way-free-p projection arm start goal) (list goal))
+        (t (let ((way (trees-way projection arm start goal)))
+             (and way (shortened projection arm start way))))))
 
 ;;; Straight lines of the tool
 

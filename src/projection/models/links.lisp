@@ -99,10 +99,8 @@ FAULT of its inertia, a URDF-ERROR, or NIL."
 (defun inertia-fault (moments element)
   "Return a URDF-ERROR about the <inertia> ELEMENT unless its principal MOMENTS are positive."
   (unless (every #'plusp moments)
-    (make-condition 'urdf-error
-                    :file *model-file* :line (xml-element-line element) :element *model-part*
-                    :reason (format nil "its inertia is not positive definite, the principal ~
-                                         moments are~{ ~a~^,~}" moments))))
+    (urdf-complaint element "its inertia is not positive definite, the principal moments are~
+                             ~{ ~a~^,~}" moments)))
 
 (defun inertial (element)
   "Return what the <inertial> of the link ELEMENT gives: mass, principal moments, the pose of their

@@ -2,7 +2,7 @@
 ;;;;
 ;;;; MESH-SHAPE reads a file with the C API of libassimp, takes the corners of all meshes where the
 ;;;; nodes of the file put them, scales them and asks Bullet for a hull of at most 40 vertices.
-;;;; Hulls are kept by file, date of writing and scale.  As ROS does it, a Collada file's unit
+;;;; Hulls are kept by file, its date and size, and scale.  As ROS does it, a Collada file's unit
 ;;;; counts and its upward axis does not: z is upwards.
 
 (in-package #:discrepancy-finder.projection)
@@ -141,13 +141,20 @@ read."
   "The greatest number of vertices of a hull.")
 
 (defvar *hulls* (make-hash-table :test 'equal :synchronized t)
-  "Shapes of meshes that were read, by file, date of writing and scale.")
+  "Shapes of meshes that were read, by file, date of writing, size and scale.")
+
+(defvar *mesh-files* '()
+  "The names of the mesh files that the model which is being read has named, the last one first.")
 
 (defun hull-shape (corners path element)
   (handler-case (cons :hull (bullet:convex-hull corners :vertices *hull-vertices*))
     (bullet:bullet-error (condition)
       (urdf-problem element "the mesh ~a has no hull: ~a" (source:native-name path)
                     (string-right-trim "." (source:condition-sentence condition))))))
+
+(defun file-size (path)
+  (with-open-file (stream path :element-type '(unsigned-byte 8))
+    (file-length stream)))
 
 (defun mesh-shape (element)
   "Return the shape of the <mesh> ELEMENT: (:hull (x y z)...)."
@@ -159,7 +166,8 @@ read."
     (dolist (factor scale)
       (unless (< 1d-6 (abs factor) 1d6)
         (urdf-problem element "the mesh ~a has a scale of ~a" name factor)))
-    (let ((key (list (source:native-name path) (file-write-date path) scale)))
+    (let ((key (list (source:native-name path) (file-write-date path) (file-size path) scale)))
+      (pushnew (source:native-name path) *mesh-files* :test #'string=)
       (or (gethash key *hulls*)
           (setf (gethash key *hulls*)
                 (hull-shape (loop for corner in (mesh-corners path element)

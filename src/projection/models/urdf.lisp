@@ -8,9 +8,11 @@
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (urdf-model (:copier nil))
-  "A tree of links; JOINTS come after the joint of their parent link."
+  "A tree of links; JOINTS come after the joint of their parent link.  MESHES are the names of the
+mesh files that its links name."
   (name "" :type string :read-only t)
   (file "" :type string :read-only t)
+  (meshes '() :type list :read-only t)
   (root "" :type string :read-only t)
   (links '() :type list :read-only t)
   (joints '() :type list :read-only t))
@@ -142,7 +144,7 @@ first."
     (let* ((above (joints-by-child joints table))
            (root-name (root-link links above)))
       (make-urdf-model :name (name-attribute root "name") :file *model-file*
-                       :root (or root-name "") :links links
+                       :meshes (reverse *mesh-files*) :root (or root-name "") :links links
                        :joints (order-joints (resolved-joints joints)
                                              (or root-name "no link"))))))
 
@@ -152,5 +154,6 @@ package:// names are looked for before others.  Signals URDF-ERROR, which names 
 and the link or joint, if the file is missing, malformed, or uses what is not supported."
   (let ((*model-file* (source:native-name file))
         (*model-part* nil)
+        (*mesh-files* '())
         (*package-path* package-path))
     (parse-urdf (read-xml file))))

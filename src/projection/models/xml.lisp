@@ -14,17 +14,27 @@ and the LINE of the file in which it begins."
   (children '() :type list)
   (line nil :type (or null integer) :read-only t))
 
+(defmethod print-object ((element xml-element) stream)
+  (print-unreadable-object (element stream :type t)
+    (format stream "<~a>~@[ in line ~d~]" (xml-element-name element) (xml-element-line element))))
+
 (defvar *model-file* ""
   "The name of the file that is being read.")
 
 (defvar *model-part* nil
   "The link or joint that is being read, such as \"link base_link\", or NIL.")
 
+(defun urdf-complaint (place control &rest arguments)
+  "Return the URDF-ERROR that URDF-PROBLEM signals."
+  (let ((*read-default-float-format* 'double-float))
+    (make-condition 'urdf-error :file *model-file* :element *model-part*
+                                :line (if (xml-element-p place) (xml-element-line place) place)
+                                :reason (substitute #\Space #\Newline
+                                                    (apply #'format nil control arguments)))))
+
 (defun urdf-problem (place control &rest arguments)
   "Signal a URDF-ERROR about the file that is being read; PLACE is an element, a line or NIL."
-  (error 'urdf-error :file *model-file* :element *model-part*
-                     :line (if (xml-element-p place) (xml-element-line place) place)
-                     :reason (apply #'format nil control arguments)))
+  (error (apply #'urdf-complaint place control arguments)))
 
 ;;; Taking elements apart
 

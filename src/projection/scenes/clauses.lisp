@@ -8,10 +8,13 @@
 (defun scene-problem (file form control &rest arguments)
   "Signal a SCENE-ERROR about FORM in FILE, with the line where the form begins if it is a list."
   (let ((position (source:form-position form))
-        (*package* (find-package '#:discrepancy-finder.projection)))
+        (*package* (find-package '#:discrepancy-finder.projection))
+        (*read-default-float-format* 'double-float)
+        (*print-pretty* nil) (*print-length* 6) (*print-level* 3))
     (error 'scene-error :file (source:native-name file)
                         :line (and position (source:source-position-line position))
-                        :reason (apply #'format nil control arguments))))
+                        :reason (substitute #\Space #\Newline
+                                            (apply #'format nil control arguments)))))
 
 (defun check-proper (form file)
   "Signal SCENE-ERROR at a list within FORM that has a dot in it."

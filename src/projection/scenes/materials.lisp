@@ -14,6 +14,11 @@ double floats or keywords, names of parameters."
   (coefficients '() :type list :read-only t)
   (form nil :type list :read-only t))
 
+(defmethod print-object ((material material) stream)
+  (print-unreadable-object (material stream :type t)
+    (format stream "~(~a~)~{ ~(~a~) ~(~a~)~}" (material-name material)
+            (material-coefficients material))))
+
 (defparameter *coefficients* '((:friction . 10) (:restitution . 1) (:rolling-friction . 1))
   "The coefficients that a material can have, with their largest values.")
 

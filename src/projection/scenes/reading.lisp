@@ -8,6 +8,13 @@
     (:robot ,@*robot-options*))
   "The kinds of parts and their options.")
 
+(defun read-part-model (name clause file)
+  "Return the URDF model in the file that CLAUSE of the scene in FILE names NAME."
+  (let ((path (merge-pathnames (source:native-path name) (source:native-path file))))
+    (unless (uiop:file-exists-p path)
+      (scene-problem file clause "~a: no such file" (source:native-name path)))
+    (read-urdf path)))
+
 (defun check-item (model clause file)
   (let ((link (first (urdf-model-links model))))
     (unless (and (null (rest (urdf-model-links model)))
@@ -34,8 +41,7 @@
     (unless (and (parameter-name-p name) (stringp model-file))
       (scene-problem file clause "(~(~s~) name \"file.urdf\" option*) was expected" kind))
     (check-options clause options (rest (assoc kind *part-options*)) file)
-    (let ((model (read-urdf (merge-pathnames (source:native-path model-file)
-                                             (source:native-path file)))))
+    (let ((model (read-part-model model-file clause file)))
       (unless (eq kind :robot)
         (check-dynamic (urdf-model-links model)))
       (when (eq kind :item)

@@ -25,12 +25,20 @@ and of the links FINGERS; PARKED are the joints' positions (m or rad) when the a
   (fingers '() :type list :read-only t)
   (parked '() :type list :read-only t))
 
+(defmethod print-object ((arm arm-roles) stream)
+  (print-unreadable-object (arm stream :type t)
+    (format stream "~(~a~), ~d joint~:p" (arm-roles-name arm) (length (arm-roles-joints arm)))))
+
 (defparameter *column-roles* '(:lift :shoulder :extension :gripper)
   "The roles of a robot with a telescopic arm on a column.")
 
 (defun part-arm (part name)
   "Return the ARM-ROLES of the arm NAME, a symbol, of PART, a robot, or NIL."
   (find (source:name-keyword name) (scene-part-arms part) :key #'arm-roles-name))
+
+(defun scene-arm-names (scene)
+  "Return the list of the names (keywords) of the arms of SCENE's robot."
+  (and (scene-robot scene) (mapcar #'arm-roles-name (scene-part-arms (scene-robot scene)))))
 
 (defun role-problem (role name model)
   "Return what is wrong with NAME in the ROLE of a robot with MODEL, or NIL."

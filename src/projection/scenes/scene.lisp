@@ -32,6 +32,11 @@ once and used in every projection."
   (form nil :type list :read-only t)
   (prepared nil))
 
+(defmethod print-object ((part scene-part) stream)
+  (print-unreadable-object (part stream :type t)
+    (format stream "~(~a ~a~), ~a" (scene-part-kind part) (scene-part-name part)
+            (urdf-model-name (scene-part-model part)))))
+
 (defstruct (scene (:copier %copy-scene))
   "What stands where.  PARAMETERS is a list of (name value documentation), TOLERANCES one of (name
 low high documentation), DRAWN a property list of those tolerances' values that are set."
@@ -185,9 +190,20 @@ item's frame.  Signals UNKNOWN-BODY."
   "Return the name (a keyword) of SCENE's robot, or NIL if it has none."
   (and (scene-robot scene) (scene-part-name (scene-robot scene))))
 
+(defun scene-joint-p (scene name)
+  "Return true if a part of SCENE has a joint NAME, a string, that moves."
+  (loop for part in (scene-parts scene)
+        thereis (find-if (lambda (joint)
+                           (and (string= name (urdf-joint-name joint))
+                                (not (eq (urdf-joint-type joint) :fixed))))
+                         (urdf-model-joints (scene-part-model part)))))
+
 (defun scene-files (scene)
-  "Return the names of the files that SCENE was read from: its own and those of its models."
+  "Return the names of the files that SCENE was read from: its own, those of its models and of their
+meshes."
   (cons (scene-file scene)
-        (remove-duplicates (mapcar (lambda (part) (urdf-model-file (scene-part-model part)))
-                                   (scene-parts scene))
+        (remove-duplicates (loop for part in (scene-parts scene)
+                                 for model = (scene-part-model part)
+                                 collect (urdf-model-file model)
+                                 append (urdf-model-meshes model))
                            :test #'string= :from-end t)))

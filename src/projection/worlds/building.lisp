@@ -68,8 +68,8 @@
 ;;; Positions of joints at first
 
 (defun within-body-p (body pose point)
-  "Return true if the position of the pose POINT is inside of the box, along the axes of POSE, that
-the shape of BODY fills there."
+  "Return true if the position of the pose POINT is inside of the box along the axes of POSE that the
+shape of BODY would just fit into there."
   (let ((local (compose (inverse pose) point)))
     (flet ((between-p (value low high) (<= low value high)))
       (loop for piece in (shape-pieces (bullet:body-shape body) (identity-pose))
@@ -88,7 +88,7 @@ the shape of BODY fills there."
 
 (defun check-joint-position (joint position)
   "Signal IMPOSSIBLE-JOINT-POSITION unless POSITION is within the limits of JOINT, a URDF-JOINT."
-  (unless (and (realp position) (within-limits-p joint position))
+  (unless (and (realp position) (within-limits-p joint (decimal-double position)))
     (error 'impossible-joint-position :name (urdf-joint-name joint) :value position
                                       :lower (urdf-joint-lower joint)
                                       :upper (urdf-joint-upper joint))))

@@ -38,9 +38,9 @@ DOMAIN.  BLAME is a function that returns the text that names it in errors.  Sig
                                      (ec:parse-formula formula (action-theory-theory domain)
                                                        :blame (funcall blame))))))))
 
-(defgeneric region-of-pose (action-theory pose)
-  (:documentation "Return the element of a sort of ACTION-THEORY (a keyword) that stands for the
-place of POSE, or NIL if none does."))
+(defgeneric region-of-pose (action-theory pose &optional sort)
+  (:documentation "Return the element (a keyword) of ACTION-THEORY that stands for the place of POSE,
+one of SORT (a symbol) if that is given, or NIL if none does."))
 
 (defvar *domains* (make-hash-table :test 'eq)
   "The action theory of each name, a keyword.")

@@ -18,10 +18,11 @@
                :reason (format nil "~(~a~) is ~:[~s, which is no element of the theory~;~
                                     in no region~]" form (null value) value)))))
 
-(defun place-region (domain place)
-  "Return the region of DOMAIN in which PLACE, a pose or a location designator, lies, or NIL."
+(defun place-region (domain place &optional sort)
+  "Return the region of DOMAIN, one of SORT if that is given, in which PLACE, a pose or a location
+designator, lies, or NIL."
   (let ((pose (plan:designated-pose (decided place "the place of an action"))))
-    (and pose (region-of-pose domain pose))))
+    (and pose (region-of-pose domain pose sort))))
 
 (defun decided-form (form properties)
   "Return a form for FORM in which symbolic values in PROPERTIES are decided.  A property of a
@@ -117,13 +118,15 @@ theory, and DOMAIN-NOT-FOUND."
                      collect `(,property (plan:desig-prop-value designator
                                                                 ,(property-key property))))
            (declare (ignorable ,@properties))
-           (flet ((region-of (place) (place-region domain place)))
+           (flet ((region-of (place &optional sort) (place-region domain place sort)))
              (declare (ignorable #'region-of))
              (list ,@(outcome-forms clauses properties)))))))))
 
-(defun region-of (place)
-  "Inside DEFINE-ACTION, return the element of the domain's theory that stands for PLACE, a pose or
-a location designator, or NIL if none does.  Anywhere else this signals MALFORMED-PLAN-FORM."
+(defun region-of (place &optional sort)
+  "Inside DEFINE-ACTION, return the element of the domain's theory, one of SORT (a symbol) if that
+is given, that stands for PLACE, a pose or a location designator, or NIL if none does.  Anywhere
+else this signals MALFORMED-PLAN-FORM."
+  (declare (ignore sort))
   (error 'plan:malformed-plan-form :form `(region-of ,place)
                                    :expected "an enclosing define-action"))
 
