@@ -7,20 +7,12 @@
 
 (in-package #:discrepancy-finder.projection)
 
-(defstruct (terrain (:constructor %make-terrain (sills wheels suspension reach)) (:copier nil))
+(defstruct (terrain (:constructor make-terrain (sills wheels suspension)) (:copier nil))
   "SILLS are the pieces that are driven over, WHEELS the places (x . y) of the wheels in the frame of
-the base: front left and right, rear left and right; no one feels a sill farther than REACH (m) from
-the middle of the base."
+the base: front left and right, rear left and right."
   (sills '() :type list :read-only t)
   (wheels '() :type list :read-only t)
-  (suspension 0.05d0 :type double-float :read-only t)
-  (reach 0d0 :type double-float :read-only t))
-
-(defun make-terrain (sills wheels suspension)
-  "Return the terrain with the pieces SILLS for a base with WHEELS."
-  (%make-terrain sills wheels suspension
-                 (+ suspension (loop for (x . y) in wheels
-                                     maximize (sqrt (+ (* x x) (* y y)))))))
+  (suspension 0.05d0 :type double-float :read-only t))
 
 (defparameter *wheel-inset* 0.08d0
   "The distance (m) of the wheels from the edges of the base.")
@@ -36,50 +28,64 @@ the middle of the base."
     (destructuring-bind ((rear front) (right left)) (list (extent 0) (extent 1))
       (list (cons front left) (cons front right) (cons rear left) (cons rear right)))))
 
+(declaim (inline smooth-step))
+(defun smooth-step (fraction)
+  "Return the smooth step from 0 to 1 that has no velocity and no acceleration at its ends."
+  (declare (double-float fraction))
+  (cond ((<= fraction 0d0) 0d0)
+        ((>= fraction 1d0) 1d0)
+        (t (* fraction fraction fraction (+ 10 (* fraction (- (* 6 fraction) 15)))))))
+
 (defun outside-distance (piece x y)
   "Return a lower bound of how far (m) the point X, Y is outside of PIECE; it is exact, and negative,
 inside."
-  (let ((point (make-array 2 :element-type 'double-float)))
-    (setf (aref point 0) x (aref point 1) y)
-    (gap-along-edges piece point 0d0 0d0)))
-
-(defun smooth-step (fraction)
-  "Return the smooth step from 0 to 1 that has no velocity and no acceleration at its ends."
-  (cond ((<= fraction 0) 0d0)
-        ((>= fraction 1) 1d0)
-        (t (* fraction fraction fraction (+ 10 (* fraction (- (* 6 fraction) 15)))))))
+  (declare (double-float x y) (optimize speed (safety 1)))
+  (let ((edges (piece-edges piece)) (distance -1d9))
+    (declare (type doubles edges) (double-float distance))
+    (loop for i of-type fixnum below (length edges) by 3
+          do (setf distance (max distance (- (+ (* (aref edges i) x) (* (aref edges (+ i 1)) y))
+                                             (aref edges (+ i 2))))))
+    distance))
 
 (defun ground-height (terrain x y)
   "Return the height (m) of the ground of TERRAIN for a wheel at X, Y."
-  (let ((length (terrain-suspension terrain)))
-    (loop for sill in (terrain-sills terrain)
-          maximize (* (piece-high sill)
-                      (smooth-step (- 0.5d0 (/ (outside-distance sill x y) length)))))))
+  (declare (double-float x y) (optimize speed (safety 1)))
+  (let ((length (terrain-suspension terrain)) (height 0d0))
+    (declare (double-float height))
+    (dolist (sill (terrain-sills terrain) height)
+      (let ((distance (outside-distance sill x y)))
+        (declare (double-float distance))
+        (when (< distance length)
+          (setf height (max height (* (the double-float (piece-high sill))
+                                      (smooth-step (- 0.5d0 (/ distance length)))))))))))
 
-(defun level-at-p (terrain x y)
-  "Return true if no wheel of a base at X, Y can stand on anything but the ground of TERRAIN."
-  (declare (double-float x y))
-  (loop for sill in (terrain-sills terrain)
-        always (> (outside-distance sill x y) (terrain-reach terrain))))
+(defun wheel-heights (terrain x y yaw)
+  "Return how high (m) the ground of TERRAIN is under the four wheels of a base at X, Y, turned by
+YAW, as four values, and whether it is 0 under all."
+  (declare (double-float x y yaw) (optimize speed (safety 1)))
+  (let ((sine (sin yaw)) (cosine (cos yaw)))
+    (flet ((height (wheel)
+             (destructuring-bind (a . b) wheel
+               (declare (double-float a b))
+               (ground-height terrain (+ x (- (* cosine a) (* sine b)))
+                              (+ y (+ (* sine a) (* cosine b)))))))
+      (destructuring-bind (front-left front-right rear-left rear-right) (terrain-wheels terrain)
+        (let ((a (height front-left)) (b (height front-right))
+              (c (height rear-left)) (d (height rear-right)))
+          (declare (double-float a b c d))
+          (values a b c d (= 0d0 a b c d)))))))
 
 (defun ground-pose (terrain x y z yaw)
   "Return the pose of the base at X, Y, turned by YAW, at the height Z above the ground of TERRAIN."
-  (if (level-at-p terrain x y)
-      (make-pose x y z :yaw yaw)
-      (let ((sine (sin yaw)) (cosine (cos yaw)))
-        (destructuring-bind (front-left front-right rear-left rear-right)
-            (loop for (a . b) in (terrain-wheels terrain)
-                  collect (ground-height terrain
-                                         (+ x (- (* cosine a) (* sine b)))
-                                         (+ y (+ (* sine a) (* cosine b)))))
-          (destructuring-bind ((front . left) right rear &rest last) (terrain-wheels terrain)
-            (declare (ignore last))
-            (let ((rise (/ (+ front-left front-right rear-left rear-right) 4)))
-              (if (zerop rise)
-                  (make-pose x y z :yaw yaw)
-                  (make-pose x y (+ z rise)
-                             :yaw yaw
-                             :pitch (atan (- (+ rear-left rear-right) front-left front-right)
-                                          (* 2 (- front (car rear))))
-                             :roll (atan (- (+ front-left rear-left) front-right rear-right)
-                                         (* 2 (- left (cdr right))))))))))))
+  (multiple-value-bind (front-left front-right rear-left rear-right level)
+      (wheel-heights terrain x y yaw)
+    (if level
+        (make-pose x y z :yaw yaw)
+        (destructuring-bind ((front . left) right rear &rest last) (terrain-wheels terrain)
+          (declare (ignore last))
+          (make-pose x y (+ z (/ (+ front-left front-right rear-left rear-right) 4))
+                     :yaw yaw
+                     :pitch (atan (- (+ rear-left rear-right) front-left front-right)
+                                  (* 2 (- front (car rear))))
+                     :roll (atan (- (+ front-left rear-left) front-right rear-right)
+                                 (* 2 (- left (cdr right)))))))))

@@ -106,8 +106,8 @@ the names of the two bodies.  The robot's links and the fixtures count, too."
 ;;; Joints and rest
 
 (defun fixture-joint (projection name &optional fixture)
-  "Return the joint NAME (a string) of a fixture of PROJECTION, of FIXTURE (a symbol) if it is given,
-or NIL."
+  "Return the joint NAME (a string) of a fixture of PROJECTION, of FIXTURE (a symbol) if it is
+given, or NIL."
   (cddr (find-if (lambda (entry)
                    (and (string= name (second entry))
                         (or (null fixture) (eq (source:name-keyword fixture) (first entry)))))
