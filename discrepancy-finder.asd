@@ -287,8 +287,9 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "profiles") (:file "runner") (:file "head")
                              (:file "torso")))
                (:module "navigation" :serial t
-                :components ((:file "terrain") (:file "footing") (:file "base-paths")
-                             (:file "surroundings") (:file "base-motion") (:file "going")))
+                :components ((:file "terrain") (:file "footing") (:file "queues")
+                             (:file "base-paths") (:file "surroundings") (:file "base-motion")
+                             (:file "going")))
                (:module "perception" :serial t
                 :components ((:file "hulls") (:file "surface") (:file "seeing")
                              (:file "places") (:file "detecting") (:file "looking")))

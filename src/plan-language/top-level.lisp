@@ -79,7 +79,8 @@
             do (stop-strand scheduler strand)))))
 
 (defvar *implicit-task* nil
-  "The task of an implicit top-level while the code that it is around runs, but in no task of that.")
+  "The task of an implicit top-level while the code that it is around runs, but in no task of
+that.")
 
 (defun outside-of-tasks-p ()
   "Return true where a top-level can be made: outside of any, or directly in an implicit one."

@@ -16,6 +16,12 @@
       (is (nearly (+ (geometry:pose-x closed) 0.3)
                   (geometry:pose-x (projection:observed-pose projection :spoon)) 1d-6)
           "what lies in a drawer goes along"))
+    (dolist (item '(:bowl :cereal :milk))
+      (is (nearly 0 (geometry:planar-distance
+                     (projection:scene-body-pose (kitchen-scene) item)
+                     (projection:observed-pose projection item))
+                  1d-9)
+          "what stands on the counter above it does not"))
     (let ((handle (projection:fixture-link-pose projection "drawer_2_handle")))
       (is (nearly 0.3d0 (- (geometry:pose-x handle)
                            (projection:with-projection (closed (kitchen-scene))

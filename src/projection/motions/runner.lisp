@@ -1,13 +1,14 @@
 ;;;; The motion runner: motions of the robot in the world.
 ;;;;
-;;;; A motion of the base, of joints, or of both, is worked out for all of its steps; one call of the
-;;;; Bullet layer then runs it, looks for contact, and checks the grips.  In the fidelity :FAST it
-;;;; steps the world only while something can depend on it.  RUN-JOINTS and RUN-PATH move joints,
-;;;; RUN-MOTION is what all motions end in.  They return NIL if the motion was done; else :CONTACT and
-;;;; the list of the two bodies that would touch, and the robot stands where it stopped before.
+;;;; A motion of the base, of joints, or of both, is worked out for all of its steps; one call of
+;;;; the Bullet layer then runs it, looks for contact, and checks the grips.  In the fidelity :FAST
+;;;; it steps the world only while something can depend on it.  RUN-JOINTS and RUN-PATH move joints,
+;;;; RUN-MOTION is what all motions end in.  They return NIL if the motion was done; else :CONTACT
+;;;; and the list of the two bodies that would touch, and the robot stands where it stopped before.
 ;;;;
-;;;; What must not touch anything is said by WATCH: :ALL links and held items; :LINKS, the links only;
-;;;; :ALLOW-HAND, all but hands and held items; :NONE or :ALLOW-ALL, nothing; or a list of bodies.
+;;;; What must not touch anything is said by WATCH: :ALL links and held items; :LINKS, the links
+;;;; only; :ALLOW-HAND, all but hands and held items; :NONE or :ALLOW-ALL, nothing; or a list of
+;;;; bodies.
 
 (in-package #:discrepancy-finder.projection)
 

@@ -1,11 +1,11 @@
 ;;;; Base paths: A* over x, y and yaw.
 ;;;;
-;;;; PLAN-PATH finds a way for the base through a lattice of places 5 cm and 22.5 degrees apart, after
-;;;; it has tried one of 10 cm in which the base turns only from its first direction to its last.
-;;;; From one place to the next the base moves or turns, which costs as much as its length in m, or
-;;;; half of its angle in rad.  Ties are broken by the numbers of the places, so that the same scene
-;;;; gives the same path.  Then the path is made short: of its corners only those remain that are
-;;;; needed.
+;;;; PLAN-PATH finds a way for the base through a lattice of places 5 cm and 22.5 degrees apart,
+;;;; after it has tried one of 10 cm in which the base turns only from its first direction to its
+;;;; last.  From one place to the next the base moves or turns, which costs as much as its length in
+;;;; m, or half of its angle in rad.  Ties are broken by the numbers of the places, so that the same
+;;;; scene gives the same path.  Then the path is made short: of its corners only those remain that
+;;;; are needed.
 
 (in-package #:discrepancy-finder.projection)
 
@@ -14,68 +14,6 @@
 
 (defconstant +lattice-limit+ 2000000
   "A lattice with more places than that is made coarser.")
-
-;;; Priority queues: binary heaps of numbers with keys
-
-(defstruct (queue (:constructor make-queue ()) (:copier nil) (:predicate nil))
-  (keys (make-array 1024 :element-type 'double-float) :type doubles)
-  (places (make-array 1024 :element-type 'fixnum) :type (simple-array fixnum (*)))
-  (size 0 :type fixnum))
-
-(defun grow-queue (queue)
-  (flet ((grown (old)
-           (replace (make-array (* 2 (length old)) :element-type (array-element-type old)) old)))
-    (setf (queue-keys queue) (grown (queue-keys queue))
-          (queue-places queue) (grown (queue-places queue)))))
-
-(declaim (inline before-p))
-(defun before-p (key place other-key other-place)
-  (declare (double-float key other-key) (fixnum place other-place))
-  (or (< key other-key) (and (= key other-key) (< place other-place))))
-
-(defun enqueue (queue key place)
-  "Put PLACE into QUEUE under KEY."
-  (declare (double-float key) (fixnum place) (optimize speed (safety 1))
-           (sb-ext:muffle-conditions sb-ext:compiler-note))
-  (when (= (queue-size queue) (length (queue-keys queue)))
-    (grow-queue queue))
-  (let ((keys (queue-keys queue)) (places (queue-places queue)) (index (queue-size queue)))
-    (incf (queue-size queue))
-    (loop while (plusp index)
-          do (let ((parent (ash (1- index) -1)))
-               (unless (before-p key place (aref keys parent) (aref places parent))
-                 (return))
-               (setf (aref keys index) (aref keys parent)
-                     (aref places index) (aref places parent)
-                     index parent)))
-    (setf (aref keys index) key
-          (aref places index) place)))
-
-(defun dequeue (queue)
-  "Take the place with the least key out of QUEUE; return it, or NIL if there is none."
-  (declare (optimize speed (safety 1))
-           (sb-ext:muffle-conditions sb-ext:compiler-note))
-  (let ((keys (queue-keys queue)) (places (queue-places queue)))
-    (unless (zerop (queue-size queue))
-      (prog1 (aref places 0)
-        (let* ((size (decf (queue-size queue)))
-               (key (aref keys size)) (place (aref places size)) (index 0))
-          (declare (fixnum index))
-          (loop
-            (let ((child (1+ (* 2 index))))
-              (declare (fixnum child))
-              (when (>= child size) (return))
-              (when (and (< (1+ child) size)
-                         (before-p (aref keys (1+ child)) (aref places (1+ child))
-                                   (aref keys child) (aref places child)))
-                (incf child))
-              (unless (before-p (aref keys child) (aref places child) key place)
-                (return))
-              (setf (aref keys index) (aref keys child)
-                    (aref places index) (aref places child)
-                    index child)))
-          (setf (aref keys index) key
-                (aref places index) place))))))
 
 ;;; The lattice
 
@@ -210,8 +148,8 @@ clearance BOUND (m)."
      (* *turn-cost* (abs (short-turn (- (third to) (third from)))))))
 
 (defparameter *greed* 1.5d0
-  "How much the estimated cost of the way to come counts: with more than 1 fewer places are looked at,
-and the way may cost so much more than the best one.")
+  "How much the estimated cost of the way to come counts: with more than 1 fewer places are looked
+at, and the way may cost so much more than the best one.")
 
 (defun goal-estimate (lattice goal)
   "Return a function that returns the estimated cost from the place with a number to GOAL."
@@ -233,8 +171,8 @@ and the way may cost so much more than the best one.")
                   (aref turns direction)))))))))
 
 (defun can-turn-p (lattice column row from to)
-  "Return true if the robot can turn at COLUMN and ROW of LATTICE from one direction to another, both
-numbers below +YAWS+."
+  "Return true if the robot can turn at COLUMN and ROW of LATTICE from one direction to another,
+both numbers below +YAWS+."
   (let ((footing (lattice-footing lattice))
         (x (+ (lattice-x lattice) (* column (lattice-step lattice))))
         (y (+ (lattice-y lattice) (* row (lattice-step lattice))))
@@ -252,9 +190,9 @@ numbers below +YAWS+."
        (loop for number below +yaws+ collect number)))
 
 (defun search-lattice (lattice starts goals estimate)
-  "Return the number of the last place of the best way from one of STARTS to one of GOALS, both lists
-of (number . cost), and its cost, or NIL.  ESTIMATE is a function of a number that returns the cost
-to come."
+  "Return the number of the last place of the best way from one of STARTS to one of GOALS, both
+lists of (number . cost), and its cost, or NIL.  ESTIMATE is a function of a number that returns the
+cost to come."
   (declare (function estimate) (optimize speed (safety 1))
            (sb-ext:muffle-conditions sb-ext:compiler-note))
   (let ((queue (make-queue))

@@ -91,8 +91,8 @@ keeps the pieces turned by YAW that were needed."
     nearest))
 
 (defun turning-room (footing x y)
-  "Return a lower bound of the distance (m) between all that the robot of FOOTING sweeps when it turns
-at X, Y and its surroundings."
+  "Return a lower bound of the distance (m) between all that the robot of FOOTING sweeps when it
+turns at X, Y and its surroundings."
   (declare (double-float x y))
   (let ((nearest 1d9) (reach (footing-reach footing)))
     (declare (double-float nearest))
@@ -117,7 +117,8 @@ surroundings; any number at most LIMIT once it is known to be that near."
   (- angle (* 2 pi (fround angle (* 2 pi)))))
 
 (defun straight-way-p (footing from to)
-  "Return true if the robot of FOOTING can go from the place FROM straight to TO, turning meanwhile."
+  "Return true if the robot of FOOTING can go from the place FROM straight to TO, turning
+meanwhile."
   (destructuring-bind ((x y yaw) (to-x to-y to-yaw)) (list from to)
     (let* ((dx (- to-x x)) (dy (- to-y y)) (turn (short-turn (- to-yaw yaw)))
            ;; No point of the robot goes farther than that.

@@ -14,7 +14,8 @@
                (/ (value :base-speed) (value :base-turn-speed)))))
 
 (defun stopping-place (projection goal)
-  "Return the place where the base of PROJECTION's robot really stops when it goes to the pose GOAL."
+  "Return the place where the base of PROJECTION's robot really stops when it goes to the pose
+GOAL."
   (destructuring-bind (x y yaw)
       (loop for name in '(:base-stopping-error-x :base-stopping-error-y :base-stopping-error-yaw)
             collect (projection-parameter projection name))

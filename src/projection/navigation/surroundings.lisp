@@ -101,14 +101,14 @@ cannot."
   (list (pose-x pose) (pose-y pose) (pose-yaw pose)))
 
 (defun base-pose-free-p (projection pose)
-  "Return true if PROJECTION's robot, as it is now, could stand at POSE, of which x, y and yaw count,
-and touch nothing."
+  "Return true if PROJECTION's robot, as it is now, could stand at POSE, of which x, y and yaw
+count, and touch nothing."
   (and (footing-for projection (projection-footing projection) (pose-place pose)) t))
 
 (defun plan-base-path (projection goal)
   "Return a list of places, from where the base of PROJECTION's robot is now to the pose GOAL, on
-which it touches nothing; or NIL, and :GOAL if it cannot stand at GOAL, :PATH if it cannot get there.
-The third value is the footing."
+which it touches nothing; or NIL, and :GOAL if it cannot stand at GOAL, :PATH if it cannot get
+there.  The third value is the footing."
   (let* ((start (base-place (projection-robot projection)))
          (goal (pose-place goal))
          (footing (footing-for projection (projection-footing projection) goal)))

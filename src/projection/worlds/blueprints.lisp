@@ -1,9 +1,9 @@
 ;;;; Blueprints: what the worlds of a scene have in common.
 ;;;;
-;;;; A world is built anew for every sample; what does not depend on the sample is worked out once for
-;;;; each part of a scene and kept there.  A LINK-FRAME is a link of a model with its place in the
-;;;; tree, parents first; a BODY-PLAN describes a body.  Of a fixture every link that stands fast is a
-;;;; body of its own, while links that move together are one; so are those of an item.
+;;;; A world is built anew for every sample; what does not depend on the sample is worked out once
+;;;; for each part of a scene and kept there.  A LINK-FRAME is a link of a model with its place in
+;;;; the tree, parents first; a BODY-PLAN describes a body.  Of a fixture every link that stands
+;;;; fast is a body of its own, while links that move together are one; so are those of an item.
 
 (in-package #:discrepancy-finder.projection)
 
@@ -19,9 +19,10 @@ are at first."
 
 (defstruct (body-plan (:copier nil))
   "A body: its NAME, SHAPE, mass properties, and POSE in the frame of the part when the joints are
-at 0.  PIECES are the outlines of a body that stands fast, where the scene has it.  MEMBERS is the list of (link name . pose in the frame of the body) of its links; JOINT and
-FRAME are the joint that moves it and that joint's pose, with the x axis along the joint's, in the
-frame of the part; BASES are the plans of the bodies to which the joint connects it."
+at 0.  PIECES are the outlines of a body that stands fast, where the scene has it.  MEMBERS is the
+list of (link name . pose in the frame of the body) of its links; JOINT and FRAME are the joint that
+moves it and that joint's pose, with the x axis along the joint's, in the frame of the part; BASES
+are the plans of the bodies to which the joint connects it."
   (name "" :type string :read-only t)
   (shape nil :type list :read-only t)
   (mass 0d0 :type double-float :read-only t)
@@ -42,9 +43,9 @@ height (m) of the highest one."
   (pieces '() :type list :read-only t))
 
 (defstruct (blueprint (:copier nil))
-  "FRAMES is the vector of a part's link frames; NUMBERS finds their numbers by the names of links and
-of joints; POSITIONS are those of the joints at first.  PLANS are the BODY-PLANs of a fixture or an
-item."
+  "FRAMES is the vector of a part's link frames; NUMBERS finds their numbers by the names of links
+and of joints; POSITIONS are those of the joints at first.  PLANS are the BODY-PLANs of a fixture or
+an item."
   (frames #() :type simple-vector :read-only t)
   (numbers nil :type hash-table :read-only t)
   (positions nil :type doubles :read-only t)
@@ -176,8 +177,8 @@ shape."
                                          (compose (scene-part-pose part) place)))))
 
 (defun group-pose (group poses)
-  "Return the pose of GROUP in the frame of its part when the joints are at 0; POSES is an association
-list of those of the groups before."
+  "Return the pose of GROUP in the frame of its part when the joints are at 0; POSES is an
+association list of those of the groups before."
   (let ((joint (rigid-group-joint group)) (parent (rigid-group-parent group)))
     (if joint
         (compose (compose (cdr (assoc parent poses))

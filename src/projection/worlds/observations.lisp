@@ -106,8 +106,8 @@ the names of the two bodies.  The robot's links and the fixtures count, too."
 ;;; Joints and rest
 
 (defun fixture-joint (projection name &optional fixture)
-  "Return the joint NAME (a string) of a fixture of PROJECTION, of FIXTURE (a symbol) if it is given,
-or NIL."
+  "Return the joint NAME (a string) of a fixture of PROJECTION, of FIXTURE (a symbol) if it is
+given, or NIL."
   (cddr (find-if (lambda (entry)
                    (and (string= name (second entry))
                         (or (null fixture) (eq (source:name-keyword fixture) (first entry)))))
@@ -127,7 +127,11 @@ PROJECTION.  Signals UNKNOWN-JOINT."
           (t (error 'unknown-joint :name name :scene (scene-name (projection-scene projection)))))))
 
 (defun item-at-rest-p (projection name)
-  "Return true if the item NAME, a symbol, of PROJECTION sleeps, held by nothing.  Signals
-UNKNOWN-BODY."
-  (and (bullet:asleep-p (item-body projection name))
-       (not (rassoc (source:name-keyword name) (held-items projection)))))
+  "Return true if the item NAME, a symbol, of PROJECTION sleeps, or is slower than 1 mm/s and 0.01
+rad/s, and nothing holds it.  Signals UNKNOWN-BODY."
+  (let ((body (item-body projection name)))
+    (and (not (rassoc (source:name-keyword name) (held-items projection)))
+         (or (bullet:asleep-p body)
+             (multiple-value-bind (vx vy vz wx wy wz) (bullet:body-velocity body)
+               (and (< (+ (* vx vx) (* vy vy) (* vz vz)) 1d-6)
+                    (< (+ (* wx wx) (* wy wy) (* wz wz)) 1d-4)))))))

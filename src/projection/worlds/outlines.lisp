@@ -11,10 +11,10 @@
 
 (defstruct (piece (:constructor %make-piece (polygon edges low high x y radius x0 y0 x1 y1))
                   (:copier nil))
-  "POLYGON holds the corners x0 y0 x1 y1 ..., counterclockwise, EDGES for each edge the two numbers of
-its outward unit normal, and its distance (m) from the origin along that; the piece reaches from the
-height LOW to HIGH (m).  All its corners are within RADIUS of X, Y, and between X0 and X1, Y0 and
-Y1."
+  "POLYGON holds the corners x0 y0 x1 y1 ..., counterclockwise, EDGES for each edge the two numbers
+of its outward unit normal, and its distance (m) from the origin along that; the piece reaches from
+the height LOW to HIGH (m).  All its corners are within RADIUS of X, Y, and between X0 and X1, Y0
+and Y1."
   (polygon nil :type doubles :read-only t)
   (edges nil :type doubles :read-only t)
   (low 0d0 :type double-float :read-only t)
@@ -192,8 +192,8 @@ before, so that the pieces are kept; nothing depends on that."
        (< (+ (piece-low b) 1d-3) (piece-high a))))
 
 (defun gap-along-edges (piece corners x y)
-  "Return the largest distance by which an edge of PIECE separates it from the polygon CORNERS, moved
-by X, Y; negative if none does."
+  "Return the largest distance by which an edge of PIECE separates it from the polygon CORNERS,
+moved by X, Y; negative if none does."
   (declare (type doubles corners) (type double-float x y) (type piece piece)
            (optimize speed (safety 1))
            (sb-ext:muffle-conditions sb-ext:compiler-note))

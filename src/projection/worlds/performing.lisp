@@ -1,8 +1,8 @@
 ;;;; Performing: a projection as the executive of plans.
 ;;;;
-;;;; Performing a designator calls EXECUTE-DESIGNATOR, which the process modules of the other folders
-;;;; implement.  What no process module is for, but a plan, is performed by that plan.  The clock of
-;;;; plans is the time of the world.
+;;;; Performing a designator calls EXECUTE-DESIGNATOR, which the process modules of the other
+;;;; folders implement.  What no process module is for, but a plan, is performed by that plan.  The
+;;;; clock of plans is the time of the world.
 
 (in-package #:discrepancy-finder.projection)
 

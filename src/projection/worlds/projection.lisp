@@ -1,8 +1,8 @@
 ;;;; A projection: a scene built as a Bullet world, ready to have plans performed in it.
 ;;;;
 ;;;; MAKE-PROJECTION builds a world anew for every sample, so that the same sample gives the same
-;;;; bits.  WITH-PROJECTION does that, runs plans in it and closes it.  What the abstraction wants to
-;;;; know of the outcome it asks through the functions of observations.lisp; how designators come
+;;;; bits.  WITH-PROJECTION does that, runs plans in it and closes it.  What the abstraction wants
+;;;; to know of the outcome it asks through the functions of observations.lisp; how designators come
 ;;;; to the process modules is in performing.lisp.
 
 (in-package #:discrepancy-finder.projection)
@@ -75,8 +75,8 @@ as the executive of an implicit top-level; close it afterwards."
       (close-projection projection))))
 
 (defmacro with-projection ((projection scene &rest options) &body body)
-  "Evaluate BODY with PROJECTION bound to a new projection of SCENE, a scene or the name of a scene's
-file, and return its values; the projection is closed afterwards.  What BODY performs is performed in
-it, and BODY may call plans: it is in a top-level, unless it makes one.  OPTIONS are those of
-MAKE-PROJECTION."
+  "Evaluate BODY with PROJECTION bound to a new projection of SCENE, a scene or the name of a
+scene's file, and return its values; the projection is closed afterwards.  What BODY performs is
+performed in it, and BODY may call plans: it is in a top-level, unless it makes one.  OPTIONS are
+those of MAKE-PROJECTION."
   `(call-with-projection (lambda (,projection) ,@body) ,scene (list ,@options)))

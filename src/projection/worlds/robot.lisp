@@ -1,9 +1,9 @@
 ;;;; The robot: a planar base with a tree of links, posed by forward kinematics.
 ;;;;
-;;;; A ROBOT holds the pose of its base and the positions of its joints, one for each link; its links
-;;;; are kinematic bodies, which a mechanism of the Bullet layer moves.  Links have numbers, parents
-;;;; first: FRAME-NUMBER finds them by the name of the link or of the joint that moves it, or by a
-;;;; role that the scene gives.
+;;;; A ROBOT holds the pose of its base and the positions of its joints, one for each link; its
+;;;; links are kinematic bodies, which a mechanism of the Bullet layer moves.  Links have numbers,
+;;;; parents first: FRAME-NUMBER finds them by the name of the link or of the joint that moves it,
+;;;; or by a role that the scene gives.
 
 (in-package #:discrepancy-finder.projection)
 
@@ -159,6 +159,7 @@ joint and all that hangs on it."
                           :bodies bodies :mechanism mechanism)))
 
 (defun teleport-robot (robot)
-  "Put the bodies of ROBOT's links, and what they hold, to where base and joints have them, at rest."
+  "Put the bodies of ROBOT's links, and what they hold, to where base and joints have them, at
+rest."
   (bullet:pose-mechanism (robot-mechanism robot) (base-pose robot) (joint-positions robot)
                          :teleport t))
