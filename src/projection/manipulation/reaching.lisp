@@ -19,13 +19,40 @@ is what the plan is for, as it was given to FIND-REACH."
 (defparameter *efforts* '((:count 1 :restarts 2) (:count 4 :restarts 6))
   "How hard configurations are looked for, at first and if there are none then.")
 
-(defun arm-length (projection arm)
-  "Return how far (m) the tool of ARM gets from its first joint, at the most."
+(defun upward-joints (projection arm)
+  "Return the joints from the tool of ARM up to its first one."
   (let ((frames (robot-frames (projection-robot projection))))
     (loop for number = (arm-tool arm) then (link-frame-parent (svref frames number))
-          until (= number (first (arm-joints arm)))
-          sum (let ((origin (urdf-joint-origin (link-frame-joint (svref frames number)))))
-                (sqrt (dot (pose-position origin) (pose-position origin)))))))
+          collect (link-frame-joint (svref frames number))
+          until (= number (first (arm-joints arm))))))
+
+(defun origin-distance (pose)
+  "Return how far (m) the position of POSE is from the origin."
+  (let ((position (pose-position pose)))
+    (sqrt (dot position position))))
+
+(defun joint-travel (joint)
+  "Return how far (m) JOINT shifts its link from its origin, at the most."
+  (if (eq (urdf-joint-type joint) :prismatic)
+      (max (abs (or (urdf-joint-lower joint) 1d3)) (abs (or (urdf-joint-upper joint) 1d3)))
+      0d0))
+
+(defun arm-wrist (projection arm)
+  "Return where the wrist of ARM is: the origin of the highest joint whose place depends on nothing
+but the pose of the tool, a pose in the frame of that; and how far (m) it gets from the arm's first
+joint, at the most."
+  (let ((joints (upward-joints projection arm)) (place (identity-pose)))
+    (loop while (and (rest joints) (eq (urdf-joint-type (first joints)) :fixed))
+          do (setf place (compose place (inverse (urdf-joint-origin (pop joints))))))
+    ;; Turning about axes through one point does not move that point.
+    (loop while (and (rest joints)
+                     (not (eq (urdf-joint-type (first joints)) :prismatic))
+                     (< (origin-distance (urdf-joint-origin (first joints))) 1d-9))
+          do (pop joints))
+    (values place
+            (loop for (joint above) on joints
+                  while above
+                  sum (+ (origin-distance (urdf-joint-origin joint)) (joint-travel joint))))))
 
 (defun shoulder-position (projection arm positions)
   (let ((robot (projection-robot projection)))
@@ -33,11 +60,14 @@ is what the plan is for, as it was given to FIND-REACH."
                                               (first (arm-joints arm))))))
 
 (defun conceivable-p (projection arm positions pose)
-  "Return true if ARM is long enough to get to POSE, and its hand would not point back to the shoulder
-there; what else is possible is up to inverse kinematics."
-  (let ((way (mapcar #'- (pose-position pose) (shoulder-position projection arm positions))))
-    (and (<= (sqrt (dot way way)) (arm-length projection arm))
-         (>= (dot way (turned pose '(1d0 0d0 0d0))) 0))))
+  "Return true if the wrist of ARM, with its tool at POSE, is not too far from its shoulder, and the
+hand would not point back to the shoulder; what else is possible is up to inverse kinematics."
+  (multiple-value-bind (place length) (arm-wrist projection arm)
+    (let* ((shoulder (shoulder-position projection arm positions))
+           (way (mapcar #'- (pose-position (compose pose place)) shoulder)))
+      (and (<= (sqrt (dot way way)) length)
+           (>= (dot (mapcar #'- (pose-position pose) shoulder) (turned pose '(1d0 0d0 0d0)))
+               0)))))
 
 (defparameter *support-distance* 0.015d0
   "What is to be put down must be free this much (m) higher; below is what it is put on.")

@@ -63,6 +63,8 @@ negative, inside."
   "Return how high (m) the ground of TERRAIN is under the four wheels of a base at X, Y, turned by
 YAW, as four values, and whether it is 0 under all."
   (declare (double-float x y yaw) (optimize speed (safety 1)))
+  (unless (terrain-sills terrain)
+    (return-from wheel-heights (values 0d0 0d0 0d0 0d0 t)))
   (let ((sine (sin yaw)) (cosine (cos yaw)))
     (flet ((height (wheel)
              (destructuring-bind (a . b) wheel
