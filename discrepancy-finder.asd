@@ -273,8 +273,10 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "conditions")
                (:module "models" :serial t
-                :components ((:file "xml") (:file "xml-reader") (:file "numbers") (:file "inertia") (:file "packages")
-                             (:file "collada") (:file "meshes") (:file "links") (:file "joints") (:file "urdf")
+                :components ((:file "xml") (:file "xml-reader") (:file "numbers")
+                             (:file "inertia") (:file "packages")
+                             (:file "collada") (:file "meshes") (:file "links")
+                             (:file "joints") (:file "urdf")
                              (:file "groups")))
                (:module "scenes" :serial t
                 :components ((:file "clauses") (:file "parameters") (:file "scene")
@@ -397,7 +399,7 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
                              (:file "rays") (:file "joints") (:file "grips") (:file "hulls")
                              (:file "contacts") (:file "checkpoints") (:file "mechanisms")
-                             (:file "motion-runs")))
+                             (:file "motion-runs") (:file "motion-clearances")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
                              (:file "urdf-errors") (:file "urdf") (:file "meshes")

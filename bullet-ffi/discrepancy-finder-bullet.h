@@ -244,9 +244,9 @@ DFB_API int dfb_inverse_kinematics(dfb_world *world, int mechanism, int link, co
 
 /* Motions of a mechanism */
 /* Begin a motion that takes the joints from start to goal (joints that are not at start are put
- * there first, at rest; start NULL: where they are; goal NULL: start), straight or on a smooth curve
- * through via_count positions in between, one set after the other, and, with base_moves 1, the base
- * along bases.  Without fast each step steps the world; with fast 1 steps that can
+ * there first, at rest; start NULL: where they are; goal NULL: start), straight or on a smooth
+ * curve through via_count positions in between, one set after the other, and, with base_moves 1,
+ * the base along bases.  Without fast each step steps the world; with fast 1 steps that can
  * affect nothing but held bodies are skipped.  A step in which a watched body, of a link or
  * attached to one, would come as near as contact_distance (m, not negative) to an obstacle ends
  * the motion before it. */

@@ -4,8 +4,8 @@
 ;;;; link's index: the joint's ORIGIN is its pose in the frame of the parent link (of the base, for
 ;;;; a link without parent), and its position turns the link about AXIS (rad) or shifts it along
 ;;;; AXIS (m).  POSITIONS are a vector of double floats, one for each joint; those of fixed joints
-;;;; and of joints that mimic another one are not looked at.  A link may have a kinematic body, whose pose
-;;;; is that of the link.  POSE-MECHANISM moves them all, in one foreign call.
+;;;; and of joints that mimic another one are not looked at.  A link may have a kinematic body,
+;;;; whose pose is that of the link.  POSE-MECHANISM moves them all, in one foreign call.
 
 (in-package #:discrepancy-finder.bullet)
 

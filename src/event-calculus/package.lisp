@@ -7,7 +7,8 @@ them and why, and what they say of a state after known events.")
   (:export
    ;; theories
    #:define-theory #:load-theory #:find-theory #:make-checked-theory #:register-theory
-   #:theory #:theory-name #:theory-counts #:counts-text #:theory-documentation #:theory-syntax #:theory-file
+   #:theory #:theory-name #:theory-counts #:counts-text #:theory-documentation #:theory-syntax
+   #:theory-file
    #:theory-sorts #:theory-predicates #:theory-extensions #:theory-functions
    #:theory-fluents #:theory-non-inertial
    #:theory-manual-release #:theory-events #:theory-axioms #:theory-completions

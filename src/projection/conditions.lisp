@@ -27,7 +27,8 @@
            :documentation "What is wrong, as a string without a full stop."))
   (:report (lambda (condition stream)
              (format stream "~a~@[:~d~]: ~@[~a: ~]~a." (urdf-error-file condition)
-                     (urdf-error-line condition) (urdf-error-element condition) (urdf-error-reason condition))))
+                     (urdf-error-line condition) (urdf-error-element condition)
+                     (urdf-error-reason condition))))
   (:documentation "Signaled when a URDF file cannot be read or holds what is not supported."))
 
 (define-condition unknown-parameter (projection-error)

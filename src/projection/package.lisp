@@ -25,7 +25,8 @@
    ;; scenes
    #:load-scene #:scene #:scene-name #:scene-file #:scene-files #:scene-parameters #:scene-parameter
    #:scene-with-parameters #:normalized-parameters #:scene-body-pose #:check-movable
-   #:scene-item-names #:scene-item-type #:scene-item-grasps #:scene-tolerances #:scene-open-tolerances
+   #:scene-item-names #:scene-item-type #:scene-item-grasps #:scene-tolerances
+   #:scene-open-tolerances
    #:scene-knows-p
    #:scene-robot-name #:scene-arm-names #:scene-joint-p
    ;; URDF
@@ -50,5 +51,6 @@
    ;; conditions
    #:projection-error #:scene-error #:scene-error-file #:scene-error-line #:scene-error-reason
    #:urdf-error #:urdf-error-file #:urdf-error-line #:urdf-error-reason
-   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint #:impossible-joint-position
+   #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint
+   #:impossible-joint-position
    #:missing-robot-part))

@@ -142,9 +142,9 @@ REGRESSION."
 ;;; Prediction
 
 (defstruct (band (:copier nil))
-  "An ordinary least-squares fit with an intercept.  SOLUTION has the coefficients of the inputs that
-vary and, last, the intercept; FACTOR is the factorized matrix with its pivots ORDER and DIAGONAL,
-FREEDOM the residual degrees of freedom."
+  "An ordinary least-squares fit with an intercept.  SOLUTION has the coefficients of the inputs
+that vary and, last, the intercept; FACTOR is the factorized matrix with its pivots ORDER and
+DIAGONAL, FREEDOM the residual degrees of freedom."
   (solution nil :read-only t)
   (residual-sum 0d0 :type double-float :read-only t)
   (factor nil :read-only t)

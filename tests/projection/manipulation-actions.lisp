@@ -9,11 +9,11 @@
   (let ((pose (projection::tool-pose projection (projection::find-arm projection arm))))
     (list (geometry:pose-x pose) (geometry:pose-y pose) (geometry:pose-z pose))))
 
-(defun near-p (expected position tolerance)
+(defun near-position-p (expected position tolerance)
   (and (= (length expected) (length position))
        (every (lambda (a b) (nearly a b tolerance)) expected position)))
 
-(defun performed (type class &rest properties)
+(defun performed-in-kitchen (type class &rest properties)
   (plan:make-designator class `((:type ,type) ,@properties)))
 
 (test moving-both-tools
@@ -23,28 +23,28 @@
         (call-in-kitchen
          (lambda (projection)
            (perform-in projection
-                       (performed :moving-tcp :motion
+                       (performed-in-kitchen :moving-tcp :motion
                                   (list :left-target (plan:a location (pose ?left)))
                                   (list :right-target (plan:a location (pose ?right)))))
            (list (tool-position projection :left) (tool-position projection :right)))
          (standing-at -1.3 0.05 pi))
-      (is (near-p '(-1.8 -0.2 1.05) left 1d-3))
-      (is (near-p '(-1.8 0.3 1.05) right 1d-3)))))
+      (is (near-position-p '(-1.8 -0.2 1.05) left 1d-3))
+      (is (near-position-p '(-1.8 0.3 1.05) right 1d-3)))))
 
 (test moving-arm-joints
   (let ((goal '(0.5 0 0.5 -1.5 0 -1 0)))
-    (is (near-p goal
+    (is (near-position-p goal
                 (call-in-kitchen
                  (lambda (projection)
                    (perform-in projection
-                               (performed :moving-arm-joints :motion
+                               (performed-in-kitchen :moving-arm-joints :motion
                                           (list :left-configuration goal)))
                    (projection::joints-of-arm projection (projection::find-arm projection :left)))
                  (standing-at -1 0 pi))
                 1d-9)))
   (is (eq 'plan:manipulation-pose-unreachable
           (failure-in-kitchen (standing-at -1 0 pi)
-                              (performed :moving-arm-joints :motion
+                              (performed-in-kitchen :moving-arm-joints :motion
                                          '(:left-configuration (5 0 0 -1 0 -1 0)))))
       "beyond a limit"))
 
@@ -56,41 +56,41 @@
                     do (perform-in projection designator)
                     collect (projection:observed-joint projection "l_gripper_l_finger_joint")))
             (standing-at -1 0 pi))))
-    (is (near-p '(0.045 0 0.02 0.045 0.01)
-                (positions (performed :opening :motion '(:gripper :left))
-                           (performed :closing :motion '(:gripper :left))
-                           (performed :moving-gripper-joint :motion '(:gripper :left)
+    (is (near-position-p '(0.045 0 0.02 0.045 0.01)
+                (positions (performed-in-kitchen :opening :motion '(:gripper :left))
+                           (performed-in-kitchen :closing :motion '(:gripper :left))
+                           (performed-in-kitchen :moving-gripper-joint :motion '(:gripper :left)
                                       '(:joint-angle 0.02))
-                           (performed :opening :action '(:gripper (:left :right)))
-                           (performed :setting-gripper :action '(:gripper :left)
+                           (performed-in-kitchen :opening :action '(:gripper (:left :right)))
+                           (performed-in-kitchen :setting-gripper :action '(:gripper :left)
                                       '(:position 0.01)))
                 1d-6)))
   (is (eq 'plan:gripper-goal-not-reached
           (failure-in-kitchen (standing-at -1 0 pi)
-                              (performed :setting-gripper :action '(:gripper :left)
+                              (performed-in-kitchen :setting-gripper :action '(:gripper :left)
                                          '(:position 0.2))))))
 
 (defun milk-by-atomic-actions (projection)
-  "Pick up the milk step by step, as CRAM's plan for picking up does; then let it go.  Return what was
-held, and how high."
+  "Pick up the milk step by step, as CRAM's plan for picking up does; then let it go.  Return what
+was held, and how high."
   (flet ((pose (x z) (geometry:make-pose x 0.1 z :yaw pi)))
     (let ((held nil) (height nil))
-      (dolist (designator (list (performed :opening :action '(:gripper :left))
-                                (performed :reaching :action
+      (dolist (designator (list (performed-in-kitchen :opening :action '(:gripper :left))
+                                (performed-in-kitchen :reaching :action
                                            (list :left-poses (list (pose -1.9 0.95)
                                                                    (pose -1.98 0.95))))
-                                (performed :grasping :action
+                                (performed-in-kitchen :grasping :action
                                            (list :left-poses (list (pose -2.09 0.95))))
-                                (performed :gripping :action '(:gripper :left))
-                                (performed :lifting :action
+                                (performed-in-kitchen :gripping :action '(:gripper :left))
+                                (performed-in-kitchen :lifting :action
                                            (list :left-poses (list (pose -2.09 1.05))))))
         (perform-in projection designator))
       (setf held (projection:held-item projection)
             height (items-height projection :milk))
-      (dolist (designator (list (performed :putting :action
+      (dolist (designator (list (performed-in-kitchen :putting :action
                                            (list :left-poses (list (pose -2.09 0.952))))
-                                (performed :releasing :action '(:gripper :left))
-                                (performed :retracting :action
+                                (performed-in-kitchen :releasing :action '(:gripper :left))
+                                (performed-in-kitchen :retracting :action
                                            (list :left-poses (list (pose -1.95 0.952))))))
         (perform-in projection designator))
       (list held height (projection:held-item projection) (items-height projection :milk)))))
@@ -128,9 +128,9 @@ held, and how high."
                         collect (- (aref positions joint)
                                    (aref (projection::joint-positions robot) joint))))))
             (standing-at -1 0 pi))))
-    (is (near-p '(0.2 0.2 0 0 0 0 0) (after 1/2) 1d-6))
-    (is (near-p '(0.3 0.3 0 0 0 0 0) (after 1) 1d-6))
-    (is (not (near-p '(0.1 0.1 0 0 0 0 0) (after 1/4) 1d-3)) "it is no straight way")))
+    (is (near-position-p '(0.2 0.2 0 0 0 0 0) (after 1/2) 1d-6))
+    (is (near-position-p '(0.3 0.3 0 0 0 0 0) (after 1) 1d-6))
+    (is (not (near-position-p '(0.1 0.1 0 0 0 0 0) (after 1/4) 1d-3)) "it is no straight way")))
 
 (test both-fidelities-agree-on-what-is-carried
   "Picked up and put down, things end at the same place in both."
@@ -143,4 +143,4 @@ held, and how high."
                                 (list (geometry:pose-x pose) (geometry:pose-y pose)
                                       (geometry:pose-z pose))))
                             (standing-at -1.3 0.1 pi) :fidelity fidelity)))
-    (is (near-p (places :full) (places :fast) 1d-3))))
+    (is (near-position-p (places :full) (places :fast) 1d-3))))

@@ -9,7 +9,8 @@
 
 (defstruct (arm (:copier nil))
   "An arm of a robot: numbers of frames.  LINKS are all that its joints move, HAND-LINKS those
-behind the last one, BLOCKERS the other links of the robot that it could touch; TORSO is NIL without one."
+behind the last one, BLOCKERS the other links of the robot that it could touch; TORSO is NIL
+without one."
   (name nil :type keyword :read-only t)
   (joints '() :type list :read-only t)
   (tool 0 :type fixnum :read-only t)

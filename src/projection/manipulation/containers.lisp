@@ -1,10 +1,10 @@
 ;;;; Containers: actions of type opening and closing with an object.
 ;;;;
 ;;;; A container is what a movable joint of a fixture carries: a drawer, a door.  A hand takes hold
-;;;; of its handle, the link fixed to it that has "handle" in its name, and moves as the joint lets it.
-;;;; The motor of the joint follows the hand, with the force that the fingers can bear; the world is
-;;;; stepped all along, so that the contents come along by friction and by the walls, and whatever
-;;;; is in the way stops the container.
+;;;; of its handle, the link fixed to it that has "handle" in its name, and moves as the joint lets
+;;;; it. The motor of the joint follows the hand, with the force that the fingers can bear; the
+;;;; world is stepped all along, so that the contents come along by friction and by the walls, and
+;;;; whatever is in the way stops the container.
 
 (in-package #:discrepancy-finder.projection)
 

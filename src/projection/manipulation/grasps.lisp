@@ -3,10 +3,10 @@
 ;;;; A gripper's frame, its tool, has the direction of approach as its x axis and the direction in
 ;;;; which the fingers close as its y axis; its origin is between the pads of the fingers.  A GRASP
 ;;;; is a pose of the tool in the frame of the thing.  FIND-GRASPS makes them from the thing's
-;;;; shape, as a whole and in its parts: wherever it is thin enough for the open gripper it is approached
-;;;; from all sides at right angles to that.  Each is tried out: the open hand must get there
-;;;; without touching the thing, and have it between its pads then.  So a bowl is grasped at its rim, a
-;;;; box at its sides and its top, a handle from the front.
+;;;; shape, as a whole and in its parts: wherever it is thin enough for the open gripper it is
+;;;; approached from all sides at right angles to that.  Each is tried out: the open hand must get
+;;;; there without touching the thing, and have it between its pads then.  So a bowl is grasped at
+;;;; its rim, a box at its sides and its top, a handle from the front.
 ;;;; The names of the sides are those of CRAM, in the thing's own frame: x is the front, y the left
 ;;;; side, z the top.
 

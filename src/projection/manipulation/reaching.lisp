@@ -114,8 +114,8 @@ nothing at all where these begin."
                   (and (listp end) (mapcar #'cdr (projection-items projection))))))))
 
 (defun reach-from (projection arm candidate start target effort)
-  "Return the REACH of ARM for CANDIDATE, by a configuration near START; or NIL and why there is none.
-EFFORT is a list of keyword arguments of SOLVE."
+  "Return the REACH of ARM for CANDIDATE, by a configuration near START; or NIL and why there is
+none. EFFORT is a list of keyword arguments of SOLVE."
   (let ((reason :unreachable))
     (dolist (there (apply #'solve projection arm (second candidate) start effort)
                    (values nil reason))
@@ -133,8 +133,8 @@ EFFORT is a list of keyword arguments of SOLVE."
 (defun find-reach (projection arm candidates &key target)
   "Return the first REACH of ARM that there is for CANDIDATES, lists of a goal, the pose of the tool
 there, the pose from where the hand comes, and the pose to where it leaves or a list of poses on the
-way there; or NIL and why there is none, :UNREACHABLE or :COLLISION.  The bodies TARGET may be touched
-from where the hand comes on."
+way there; or NIL and why there is none, :UNREACHABLE or :COLLISION.  The bodies TARGET may be
+touched from where the hand comes on."
   (let ((reason :unreachable) (heights (or (torso-heights projection arm) '(nil))))
     (dolist (effort *efforts* (values nil reason))
       (dolist (height heights)

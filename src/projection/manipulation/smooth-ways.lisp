@@ -55,9 +55,9 @@ apart, without stopping.  Return NIL, or :CONTACT and the two bodies that would 
 
 (defun run-in-parts (projection way fractions &key watched obstacles before after)
   "Move the joints of PROJECTION's robot through the configurations of WAY by the vector FRACTIONS
-of parts of the way, one for each step.  BEFORE is called before each part of the motion with its last
-fraction and the number of its steps, AFTER behind it with its last fraction; a true result of AFTER
-ends the motion.  Return NIL if it was done, :CONTACT and two bodies, or what AFTER returned."
+of parts of the way, one for each step.  BEFORE is called before each part of the motion with its
+last fraction and the number of its steps, AFTER behind it with its last fraction; a true result of
+AFTER ends the motion.  Return NIL if it was done, :CONTACT and two bodies, or what AFTER returned."
   (let* ((robot (projection-robot projection))
          (knots (coerce (cons (copy-seq (joint-positions robot)) way) 'vector))
          (steps (length fractions))

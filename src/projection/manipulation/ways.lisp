@@ -2,8 +2,9 @@
 ;;;;
 ;;;; A way is a list of vectors of positions, without the one where it begins.  PLAN-WAY goes
 ;;;; straight in joint space if that is free; otherwise it grows two trees of free configurations,
-;;;; from the start and from the goal, until they meet.  STRAIGHT-WAY moves the tool along a line.  What is
-;;;; random here comes from a generator of its own, so that equal questions have equal answers.
+;;;; from the start and from the goal, until they meet.  STRAIGHT-WAY moves the tool along a line.
+;;;; What is random here comes from a generator of its own, so that equal questions have equal
+;;;; answers.
 
 (in-package #:discrepancy-finder.projection)
 

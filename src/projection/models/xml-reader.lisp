@@ -3,8 +3,8 @@
 ;;;; READ-XML returns the root of a file as an XML-ELEMENT (xml.lisp).  Expat calls back at the
 ;;;; beginning and at the end of each element and for text; the functions that it calls only take
 ;;;; notes in a READING and never leave through expat's frames: a problem is noted, and signaled
-;;;; when expat has returned.  A DOCTYPE that declares something or names another file is refused, so
-;;;; that neither a file of the machine nor a small file that stands for a huge one gets in.
+;;;; when expat has returned.  A DOCTYPE that declares something or names another file is refused,
+;;;; so that neither a file of the machine nor a small file that stands for a huge one gets in.
 
 (in-package #:discrepancy-finder.projection)
 

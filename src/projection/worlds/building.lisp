@@ -68,8 +68,8 @@
 ;;; Positions of joints at first
 
 (defun within-body-p (body pose point)
-  "Return true if the position of the pose POINT is inside of the box along the axes of POSE that the
-shape of BODY would just fit into there."
+  "Return true if the position of the pose POINT is inside of the box along the axes of POSE that
+the shape of BODY would just fit into there."
   (let ((local (compose (inverse pose) point)))
     (flet ((between-p (value low high) (<= low value high)))
       (loop for piece in (shape-pieces (bullet:body-shape body) (identity-pose))
@@ -155,8 +155,8 @@ Signals UNKNOWN-JOINT."
 ;;; Links of fixtures
 
 (defun fixture-link (projection name &optional fixture)
-  "Return the body of PROJECTION that the link NAME (a string) of a fixture is part of, of FIXTURE (a
-symbol) if it is given, and the link's pose in the frame of the body; NIL if there is none."
+  "Return the body of PROJECTION that the link NAME (a string) of a fixture is part of, of FIXTURE
+(a symbol) if it is given, and the link's pose in the frame of the body; NIL if there is none."
   (dolist (part (scene-parts (projection-scene projection)))
     (when (and (eq (scene-part-kind part) :fixture)
                (or (null fixture) (eq (scene-part-name part) (source:name-keyword fixture))))
@@ -172,7 +172,7 @@ symbol) if it is given, and the link's pose in the frame of the body; NIL if the
   (values (fixture-link projection name fixture)))
 
 (defun fixture-link-pose (projection name &optional fixture)
-  "Return the pose in the world of the link NAME (a string) of a fixture of PROJECTION, of FIXTURE (a
-symbol) if it is given, or NIL if there is no such link."
+  "Return the pose in the world of the link NAME (a string) of a fixture of PROJECTION, of FIXTURE
+(a symbol) if it is given, or NIL if there is no such link."
   (multiple-value-bind (body offset) (fixture-link projection name fixture)
     (and body (compose (bullet:body-pose body) offset))))

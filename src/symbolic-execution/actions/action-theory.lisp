@@ -39,8 +39,8 @@ DOMAIN.  BLAME is a function that returns the text that names it in errors.  Sig
                                                        :blame (funcall blame))))))))
 
 (defgeneric region-of-pose (action-theory pose &optional sort)
-  (:documentation "Return the element (a keyword) of ACTION-THEORY that stands for the place of POSE,
-one of SORT (a symbol) if that is given, or NIL if none does."))
+  (:documentation "Return the element (a keyword) of ACTION-THEORY that stands for the place of
+POSE, one of SORT (a symbol) if that is given, or NIL if none does."))
 
 (defvar *domains* (make-hash-table :test 'eq)
   "The action theory of each name, a keyword.")
