@@ -9,11 +9,11 @@
 ;;;;   The sill shakes what the robot carries across it, at the end of an arm by up to 15 m/s^2.
 ;;;;   With the ranges of grip force and friction below, the milk (1 kg) is always lifted, and lost
 ;;;;   on the way to the table in 17 % of 300 carries; cereal and bowl (0.4 kg) in none: 6 % in all.
-;;;;   A drawer that is open blocks the places from x = -1.47 to about -1.35 before it, and 40 cm to
-;;;;   both sides of its middle: 14 % of the ways along the workspace.
+;;;;   An open drawer blocks the places nearer than about x = -1.35 before it, up to 40 cm to both
+;;;;   sides of its middle: 14 % of the ways along the workspace.
 ;;;;   A spoon in the middle of an open drawer is seen and reached by the left arm from x = -1.35 to
-;;;;   x = -1.0, y from -0.1 to 0.5 m beside the drawer's middle.  Near the
-;;;;   drawer's front it is hidden from afar, near its back it is out of reach from x = -1.05 on.
+;;;;   x = -1.0, y from -0.1 to 0.5 m beside the drawer's middle.  Near the drawer's front it is
+;;;;   hidden from afar, near its back it is out of reach from x = -1.05 on.
 ;;;;
 ;;;; This file is data: reading it evaluates nothing.  Lengths in m, angles in rad, times in s.
 

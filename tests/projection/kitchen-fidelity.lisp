@@ -57,7 +57,8 @@ where each item is, and what of it stands; and the hash of the final state."
   (let ((forms `((require :asdf)
                  (asdf:load-asd ,(namestring (asdf:system-source-file "discrepancy-finder")))
                  (asdf:load-system "discrepancy-finder/tests")
-                 (print (uiop:symbol-call "DISCREPANCY-FINDER.TESTS" "RUN-HASHES" ',indices)))))
+                 (let ((*print-pretty* nil))
+                   (print (uiop:symbol-call "DISCREPANCY-FINDER.TESTS" "RUN-HASHES" ',indices))))))
     (read-from-string
      (uiop:run-program
       (list* (namestring sb-ext:*runtime-pathname*)
@@ -73,8 +74,7 @@ where each item is, and what of it stands; and the hash of the final state."
 
 (defun run-hashes (indices)
   (kitchen-plans)
-  (let ((*print-right-margin* most-positive-fixnum))
-    (mapcar #'run-hash indices)))
+  (mapcar #'run-hash indices))
 
 (test equal-samples-have-equal-bits
   "In the same process, in another one, in one thread and in four."
