@@ -400,11 +400,12 @@ The environment variable CXX names another compiler than g++."))
                              (:file "motion-runs")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
-                             (:file "urdf-errors") (:file "urdf") (:file "meshes") (:file "robots") (:file "scenes")
-                             (:file "actions-kitchen")
+                             (:file "urdf-errors") (:file "urdf") (:file "meshes")
+                             (:file "robots") (:file "scenes") (:file "actions-kitchen")
                              (:file "worlds") (:file "navigation")
                              (:file "seeing") (:file "manipulation")
-                             (:file "manipulation-kitchen") (:file "actions-symbolic")
+                             (:file "manipulation-kitchen") (:file "manipulation-actions")
+                             (:file "actions-symbolic")
                              (:file "pictures")))
                (:module "models"
                 :serial t

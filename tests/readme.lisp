@@ -83,6 +83,19 @@
     (is (= 6 (length entries)))
     (check-entries entries)))
 
+(defun without-numbers (text)
+  (remove-if (lambda (character) (find character "0123456789.-d")) text))
+
+(test the-text-on-projection-shows-the-repl
+  "Where exactly things end up is not this test's business."
+  (let ((entries (transcript-entries (text-block "docs/projection.md" "* (load-scene")))
+        (* nil)
+        (*package* (find-package '#:discrepancy-finder-user))
+        (*default-pathname-defaults* (asdf:system-source-directory "discrepancy-finder")))
+    (is (= 4 (length entries)))
+    (loop for (text expected) in entries
+          do (is (string= (without-numbers expected) (without-numbers (entry-output text)))))))
+
 (test the-text-on-symbolic-execution-shows-the-repl
   (let ((entries (transcript-entries (text-block "docs/symbolic-execution.md"
                                                  "* (define-theory tidy"))))

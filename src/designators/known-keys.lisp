@@ -22,7 +22,7 @@
 
 (declare-designator-keys location
   type pose poses of of-item-object on in at side range range-invert context object-count for
-  left-of right-of in-front-of behind near far-from location object obj arm arms
+  left-of right-of in-front-of behind near far-from facing location object obj arm arms
   reachable-for visible-for reachable-from height depth)
 
 (declare-designator-keys human

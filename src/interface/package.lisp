@@ -61,6 +61,8 @@
   (:import-from #:discrepancy-finder.statistics
                 #:invalid-confidence #:invalid-delta #:unknown-confidence-rule)
   (:import-from #:discrepancy-finder.projection
+                #:load-scene #:with-projection #:observed-pose #:observed-joint
+                #:held-items #:simulated-seconds
                 #:projection-error #:scene-error #:urdf-error #:unknown-parameter
                 #:impossible-parameter #:unknown-body #:missing-robot-part)
   (:import-from #:discrepancy-finder.source #:source-error)
@@ -90,6 +92,8 @@
    #:verify-plan #:verification #:verification-verdict #:verification-counterexample
    #:verification-problem #:verification-bounds
    ;; projection
+   #:load-scene #:with-projection #:observed-pose #:observed-joint #:held-items
+   #:simulated-seconds
    #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
    ;; the search
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-text

@@ -65,28 +65,28 @@ arrive, :lost, or :carried."
 (defun go-along-the-workspace (index open)
   "Go from one drawn pose before the workspace to another, with OPEN (m) of the middle drawer.
 Return how it ends, and :invalid if the robot stands in something at the beginning."
-  (with-kitchen (projection :poses (list :robot (drawn-pose "blocked" index 0 -1.3 0 0 :yaw pi
-                                                            :dx 0.25 :dy 1 :dyaw 0.1))
+  (with-kitchen (projection :poses (list :robot (drawn-pose "blocked" index 0 -1.25 0 0 :yaw pi
+                                                            :dx 0.22 :dy 1 :dyaw 0.1))
                             :joints `(("drawer_2_joint" . ,open)))
-    (if (plusp (projection:interpenetration projection))
+    (if (> (projection:interpenetration projection) 1d-3)
         :invalid
-        (let ((?goal (drawn-pose "blocked" index 10 -1.3 0 0 :yaw pi :dx 0.25 :dy 1 :dyaw 0.1)))
+        (let ((?goal (drawn-pose "blocked" index 10 -1.25 0 0 :yaw pi
+                                             :dx 0.22 :dy 1 :dyaw 0.1)))
           (outcome (plan:perform (plan:a motion (type going) (pose ?goal))))))))
 
 (test an-open-drawer-blocks-the-way-from-some-positions
-  (let ((shut 0) (free 0) (blocked 0) (invalid 0))
+  "Of 200 samples 0 fail with closed drawers; with one open FREE are free and BLOCKED blocked."
+  (let ((free 0) (blocked 0) (invalid 0))
     (loop for index below (if *long* 200 40)
-          for with-open = (go-along-the-workspace index 0.4)
-          do (unless (eq (go-along-the-workspace index 0) :done) (incf shut))
-             (case with-open
-               (:done (incf free))
-               (:invalid (incf invalid))
-               (t (is (member with-open '(plan:navigation-pose-unreachable
-                                          plan:navigation-goal-in-collision
-                                          plan:navigation-goal-not-reached)))
-                  (incf blocked))))
-    (is (zerop shut) "closed drawers block nothing")
-    (is (< 1/10 (/ blocked (+ free blocked)) 9/10) "~d free, ~d blocked, ~d invalid"
+          do (is (eq :done (go-along-the-workspace index 0)) "closed drawers, sample ~d" index)
+             (let ((end (go-along-the-workspace index 0.4d0)))
+               (case end
+                 (:done (incf free))
+                 (:invalid (incf invalid))
+                 (t (is (member end '(plan:navigation-pose-unreachable
+                                      plan:navigation-goal-not-reached)))
+                    (incf blocked)))))
+    (is (< 1/5 (/ blocked (+ free blocked)) 4/5) "~d free, ~d blocked, ~d invalid"
         free blocked invalid)))
 
 ;;; A spoon in a drawer
@@ -99,7 +99,7 @@ Return how it ends, and :invalid if the robot stands in something at the beginni
                                                  :dx 0.25 :dy 0.3 :dyaw 0.1)
                               :spoon (drawn-pose "spoon" index 10 -1.72 0 0.6105 :yaw (/ pi 2)
                                                  :dx 0.15 :dy 0.1 :dyaw 0.2))
-                 :joints '(("drawer_2_joint" . 0.4)))
+                 :joints '(("drawer_2_joint" . 0.4d0)))
     (projection:settle projection)
     (let ((?place (geometry:make-pose -1.7 0 0.62)) (?object nil))
       (cond ((not (eq :done

@@ -116,7 +116,7 @@
       (is (equal '(:box) (detected (plan:an object (type cereal)))))
       (perform-in projection (looking-at 2 -1.2 0.1))
       (is (equal '(:carton) (detected (desig:all object (type cereal)))))
-      (perform-in projection (looking-at -2 0 0.1))
+      (perform-in projection (looking-at -1 3 1))
       (signals plan:perception-object-not-found (detected (desig:all object (type cereal)))))))
 
 (test items-are-detected-where-they-are-sought

@@ -201,8 +201,7 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
   "Move CONTAINER by DISTANCE with ARM as REACH has it."
   (let* ((joint (container-joint container))
          (before (bullet:joint-position joint)))
-    (move-gripper projection arm (nth-value 1 (gripper-limits projection arm)))
-    (follow projection arm (reach-way reach))
+    (follow projection arm (reach-way reach) :opening t)
     (follow projection arm (reach-line reach) :watch :allow-hand :smoothly t)
     (grip projection arm)
     (let ((problem (haul projection container (reach-leaving reach) distance)))

@@ -59,12 +59,15 @@ joint, at the most."
     (pose-position (bullet:forward-kinematics (robot-mechanism robot) (base-pose robot) positions
                                               (first (arm-joints arm))))))
 
-(defun within-length-p (projection arm positions pose)
-  "Return true if the wrist of ARM, with its tool at POSE, is not too far from its shoulder."
+(defun conceivable-p (projection arm positions pose)
+  "Return true if ARM is long enough to get its wrist to where it is with the tool at POSE, and its
+hand would not point back to the shoulder there; what else is possible is up to inverse kinematics."
   (multiple-value-bind (place length) (arm-wrist projection arm)
-    (let ((way (mapcar #'- (pose-position (compose pose place))
-                       (shoulder-position projection arm positions))))
-      (<= (sqrt (dot way way)) length))))
+    (let* ((shoulder (shoulder-position projection arm positions))
+           (way (mapcar #'- (pose-position (compose pose place)) shoulder)))
+      (and (<= (sqrt (dot way way)) length)
+           (>= (dot (mapcar #'- (pose-position pose) shoulder) (turned pose '(1d0 0d0 0d0)))
+               0)))))
 
 (defparameter *support-distance* 0.015d0
   "What is to be put down must be free this much (m) higher; below is what it is put on.")
@@ -137,7 +140,7 @@ from where the hand comes on."
       (dolist (height heights)
         (let ((start (reaching-positions projection arm height)))
           (dolist (candidate candidates)
-            (when (within-length-p projection arm start (second candidate))
+            (when (conceivable-p projection arm start (second candidate))
               (multiple-value-bind (reach why)
                   (reach-from projection arm candidate start target effort)
                 (when reach (return-from find-reach reach))
@@ -154,14 +157,15 @@ from where the hand comes on."
         (plan:fail 'plan:manipulation-pose-unreachable
                    :description (format nil "~a cannot reach ~a" names what)))))
 
-(defun with-present-grippers (projection way)
-  "Return WAY with the grippers as they are now."
-  (let ((present (joint-positions (projection-robot projection))))
+(defun with-present-grippers (projection way &key opening)
+  "Return WAY with the grippers as they are now, but for that of the arm OPENING."
+  (let ((present (joint-positions (projection-robot projection)))
+        (grippers (mapcar #'arm-gripper (remove opening
+                                                (robot-arms (projection-robot projection))))))
     (loop for positions in way
           collect (let ((positions (copy-seq positions)))
-                    (dolist (arm (robot-arms (projection-robot projection)) positions)
-                      (setf (aref positions (arm-gripper arm))
-                            (aref present (arm-gripper arm))))))))
+                    (dolist (gripper grippers positions)
+                      (setf (aref positions gripper) (aref present gripper)))))))
 
 (defun fail-to-move (arm bodies)
   "Signal that ARM has stopped because the two BODIES would have touched."
@@ -169,11 +173,12 @@ from where the hand comes on."
              :description (format nil "the ~(~a~) arm stopped where ~a" (arm-name arm)
                                   (contact-text bodies))))
 
-(defun follow (projection arm way &key (watch :all) ignore smoothly)
-  "Move ARM along WAY, without stopping at its configurations if SMOOTHLY is true.  Signals
-MANIPULATION-GOAL-NOT-REACHED where something is touched."
+(defun follow (projection arm way &key (watch :all) ignore smoothly opening)
+  "Move ARM along WAY, without stopping at its configurations if SMOOTHLY is true, and OPENING its
+gripper meanwhile or not.  Signals MANIPULATION-GOAL-NOT-REACHED where something is touched."
   (when way
     (multiple-value-bind (reason bodies)
         (funcall (if smoothly #'run-smoothly #'run-path)
-                 projection (with-present-grippers projection way) :watch watch :ignore ignore)
+                 projection (with-present-grippers projection way :opening (and opening arm))
+                 :watch watch :ignore ignore)
       (when reason (fail-to-move arm bodies)))))
