@@ -288,7 +288,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "torso")))
                (:module "navigation" :serial t
                 :components ((:file "terrain") (:file "footing") (:file "queues")
-                             (:file "base-paths") (:file "surroundings") (:file "base-motion") (:file "going")))
+                             (:file "base-paths") (:file "surroundings") (:file "base-motion")
+                             (:file "going")))
                (:module "perception" :serial t
                 :components ((:file "hulls") (:file "surface") (:file "seeing")
                              (:file "places") (:file "detecting") (:file "looking")))

@@ -158,6 +158,33 @@ line that contains PARTS."
                 (df-command "simulate" "move-the-box" "--domain" "two-regions"
                             "--state" "box.x=1.3" "--state" "box.y=0.41")))))
 
+(test simulate-takes-pictures
+  "Before and after each of three motions; DIR is made, and what cannot be is one sentence."
+  (let ((folder (namestring (merge-pathnames (format nil "df-pictures-~36r/" (random (expt 36 8)))
+                                             (uiop:temporary-directory)))))
+    (unwind-protect
+         (multiple-value-bind (output errors status)
+             (df-command "simulate" "find-object" "--domain" "table-top" "--frames" folder)
+           (is (string= "" errors))
+           (is (= 0 status))
+           (is (search (format nil "5 frames, two pictures each, in ~a" folder) output))
+           (is (= 11 (length (uiop:directory-files folder)))))
+      (uiop:delete-directory-tree (pathname folder) :validate t :if-does-not-exist :ignore)))
+  (complains ("simulate" "find-object" "--domain" "table-top" "--frames" "/proc/nowhere")
+             "/proc/nowhere" "cannot be written"))
+
+(test simulate-runs-in-a-scene
+  (multiple-value-bind (output errors status)
+      (df-command "simulate" "find-object" "--scene" (root-file "models/table-top")
+                  "--fidelity" "full")
+    (is (string= "" errors))
+    (is (= 0 status))
+    (is (search "finally (finished" output))
+    (is (search "cereal at 0.4000 0.6500" output)))
+  (complains ("simulate" "find-object" "--scene" "no-such-scene") "no-such-scene")
+  (complains ("simulate" "find-object" "--scene" "x" "--domain" "table-top") "--domain")
+  (complains ("simulate" "find-object" "--domain" "table-top" "--fidelity" "half") "half"))
+
 (test exploring-lists-the-traces
   (multiple-value-bind (output errors status)
       (df-command "explore" "move-the-box" "--domain" "two-regions")

@@ -22,8 +22,8 @@ of the scene, with the MEANING that the scene tells."
   (region nil :type (or null region) :read-only t))
 
 (setf (documentation 'parameter-body 'function)
-      "Return the body of a parameter (a keyword), the name of its joint (a string), or NIL if it is a
-tolerance."
+      "Return the body of a parameter (a keyword), the name of its joint (a string), or NIL if it is
+a tolerance."
       (documentation 'parameter-axis 'function)
       "Return the axis of a parameter, :POSITION of a joint, or the name of a tolerance."
       (documentation 'parameter-min 'function)

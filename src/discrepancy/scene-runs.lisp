@@ -84,7 +84,10 @@ UNKNOWN-BODY, UNKNOWN-PARAMETER, INVALID-ARGUMENT."
     (loop for text in (scene-run-performed run)
           for number from 1
           do (format stream "  ~d. ~a~%" number text))
-    (format stream "~@[with ~a~%~]" (parameters-text (scene-run-tolerances run)))
+    (loop for (name value) on (scene-run-tolerances run) by #'cddr
+          for word = "with " then ", "
+          do (format stream "~a~a = ~,4f" word (ec:name-text name) value)
+          finally (format stream "~@[~%~]" (scene-run-tolerances run)))
     (format stream "finally (~(~a~), ~,2f s simulated, state hash ~a)~%" (scene-run-ending run)
             (scene-run-seconds run) (hash-text (scene-run-hash run)))
     (loop for (name . pose) in (scene-run-poses run)

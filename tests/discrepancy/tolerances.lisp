@@ -7,7 +7,7 @@
 
 (defvar *tolerant-domain* nil)
 
-(defun replaced (text old new)
+(defun replaced-once (text old new)
   "Return TEXT with OLD, which it has once, replaced by NEW."
   (let ((position (search old text)))
     (concatenate 'string (subseq text 0 position) new (subseq text (+ position (length old))))))
@@ -17,20 +17,20 @@
   (or *tolerant-domain*
       (flet ((model-text (name)
                (uiop:read-file-string (root-file (format nil "models/two-regions/~a" name)))))
-        (with-file (scene (loop with text = (replaced (model-text "scene.lisp")
+        (with-file (scene (loop with text = (replaced-once (model-text "scene.lisp")
                                                       "(:fixture bench"
                                                       "(:tolerances
                                                          (reach 0.45 0.9 \"of the arm, m\"))
                                                        (:fixture bench")
                                 for file in '("\"bench.urdf" "\"robot.urdf" "\"box.urdf")
-                                do (setf text (replaced text file
+                                do (setf text (replaced-once text file
                                                         (format nil "\"~a~a"
                                                                 (root-file "models/two-regions/")
                                                                 (subseq file 1))))
                                 finally (return text)))
           (with-file (domain (replaced
                               (replaced
-                               (replaced (model-text "domain.lisp")
+                               (replaced-once (model-text "domain.lisp")
                                          "define-abstraction two-regions"
                                          "define-abstraction tolerant-regions")
                                "\"theory.lisp\""
@@ -38,7 +38,7 @@
                               "\"scene.lisp\"" (format nil "~s" scene)))
             (let ((text (uiop:read-file-string domain)))
               (loop while (search "(:domain two-regions)" text)
-                    do (setf text (replaced text "(:domain two-regions)"
+                    do (setf text (replaced-once text "(:domain two-regions)"
                                             "(:domain tolerant-regions)")))
               (with-file (file text)
                 (setf *tolerant-domain* (discrepancy:load-domain file)))))))))

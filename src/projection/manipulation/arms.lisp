@@ -84,7 +84,9 @@ behind the last one, BLOCKERS the other links of the robot that it could touch; 
 
 (defun measure-hand (robot arm)
   "Return the HAND of ARM: the shapes of its links while it is open."
-  (let* ((positions (copy-seq (joint-positions robot)))
+  (let* (;; Not the present ones: the same hand to the last bit, whenever it is measured.
+         (positions (make-array (length (robot-frames robot)) :element-type 'double-float
+                                                              :initial-element 0d0))
          (mechanism (robot-mechanism robot))
          (frames (robot-frames robot)))
     (setf (aref positions (arm-gripper arm))

@@ -58,6 +58,8 @@
          (tool (tool-pose projection arm))
          (capacity (* 2 (projection-parameter projection :finger-friction) effort)))
     (let-pass projection arm body t)
+    ;; Where the tool is in the item's frame is not known from an earlier grasp.
+    (setf (getf (projection-memory projection) (arm-name arm)) nil)
     (note-grasp projection (arm-name arm) item
                 (bullet:attach palm body
                                :point (compose (inverse (bullet:body-pose body)) tool)

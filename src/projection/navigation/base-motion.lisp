@@ -1,7 +1,7 @@
 ;;;; Base motion: a path of the base as a motion in time.
 ;;;;
-;;;; A path is a list of places.  From one to the next the base moves and turns at once: straight in a
-;;;; space of x, y and yaw, in which a turn counts as the length that is driven in the same time.
+;;;; A path is a list of places.  From one to the next the base moves and turns at once: straight in
+;;;; a space of x, y and yaw, in which a turn counts as the length that is driven in the same time.
 ;;;; At a corner the base leaves the straight way for an arc, where that is free, and drives so
 ;;;; slowly there that its acceleration stays within bounds; else it stops.  So a path is a list of
 ;;;; STRETCHes, straight ones and arcs.  PATH-BASES is the entry point.
@@ -59,8 +59,8 @@ the speed is CAP (m/s) at most, at its end 0 if STOP is true."
 ;;; Stretches
 
 (defun weighted-points (gait path)
-  "Return the points x, y, weighted yaw of the places of PATH, with yaws that differ by less than half
-a turn from each place to the next."
+  "Return the points x, y, weighted yaw of the places of PATH, with yaws that differ by less than
+half a turn from each place to the next."
   (loop with yaw = (third (first path))
         for (x y next) in path
         do (incf yaw (short-turn (- next yaw)))
@@ -96,7 +96,8 @@ from CORNER at which it begins; NIL if there is none that is free."
           while to
           do (multiple-value-bind (arc distance)
                  (and after (corner-arc gait from to after free-p))
-               (let* ((way (points-apart to from)) (length (point-length way)) (distance (or distance 0d0))
+               (let* ((way (points-apart to from)) (length (point-length way))
+                      (distance (or distance 0d0))
                       (direction (times (/ length) way)))
                  (when (> (- length begin distance) 1d-9)
                    (push (make-stretch (points-sum from (times begin direction)) direction
@@ -109,8 +110,8 @@ from CORNER at which it begins; NIL if there is none that is free."
 ;;; Time
 
 (defstruct (leg (:constructor make-leg (stretch entry peak exit rise cruise fall)) (:copier nil))
-  "The motion along STRETCH: from the speed ENTRY (m/s) to PEAK in RISE (s), on for CRUISE, and to the
-speed EXIT in FALL."
+  "The motion along STRETCH: from the speed ENTRY (m/s) to PEAK in RISE (s), on for CRUISE, and to
+the speed EXIT in FALL."
   (stretch nil :type stretch :read-only t)
   (entry 0d0 :type double-float :read-only t)
   (peak 0d0 :type double-float :read-only t)
@@ -188,10 +189,10 @@ speed EXIT in FALL."
           (aref bases (+ i 5)) (sin half) (aref bases (+ i 6)) (cos half))))
 
 (defun path-bases (gait path terrain height free-p last)
-  "Return the vector of the poses of the base, seven numbers each, after each step of the motion along
-PATH, a list of places, at HEIGHT (m) above the ground of TERRAIN; the last pose is LAST.  FREE-P is
-a function that tells whether the base can be at a place.  The vector is empty if PATH has no
-length."
+  "Return the vector of the poses of the base, seven numbers each, after each step of the motion
+along PATH, a list of places, at HEIGHT (m) above the ground of TERRAIN; the last pose is LAST.
+FREE-P is a function that tells whether the base can be at a place.  The vector is empty if PATH has
+no length."
   (let* ((legs (path-legs gait (path-stretches gait path free-p)))
          (duration (reduce #'+ legs :key #'leg-duration))
          (steps (values (ceiling (- (/ duration +time-step+) 1d-9))))

@@ -13,7 +13,9 @@
 (defun robot-pieces (projection)
   "Return the pieces of PROJECTION's robot and of what it holds, in the level frame of its base."
   (let* ((robot (projection-robot projection))
+         (mechanism (robot-mechanism robot))
          (base (base-pose robot))
+         (standing (make-pose 0 0 (standing-height robot)))
          (level (make-pose (pose-x base) (pose-y base)
                            (- (pose-z base) (standing-height robot))
                            :yaw (pose-yaw base)))
@@ -22,8 +24,10 @@
      (loop for body across (robot-bodies robot)
            for number from 0
            when body
+             ;; As if it stood on level ground, so that the same posture has the same pieces.
              append (shape-pieces (bullet:body-shape body)
-                                  (compose outside (numbered-link-pose robot number))))
+                                  (bullet:forward-kinematics mechanism standing
+                                                             (joint-positions robot) number)))
      (loop for body in (held-bodies projection)
            append (shape-pieces (bullet:body-shape body)
                                 (compose outside (bullet:body-pose body)))))))

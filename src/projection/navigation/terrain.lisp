@@ -1,15 +1,15 @@
 ;;;; Terrain: the ground under the base.
 ;;;;
-;;;; Parts of fixtures that are lower than the parameter step-height, such as a door sill, are driven
-;;;; over.  The base stands on four wheels near the corners of its root link; each is lifted by what
-;;;; is under it, along a smooth step as long as the parameter suspension, so that the base rises and
-;;;; pitches with finite accelerations.
+;;;; Parts of fixtures that are lower than the parameter step-height, such as a door sill, are
+;;;; driven over.  The base stands on four wheels near the corners of its root link; each is lifted
+;;;; by what is under it, along a smooth step as long as the parameter suspension, so that the base
+;;;; rises and pitches with finite accelerations.
 
 (in-package #:discrepancy-finder.projection)
 
 (defstruct (terrain (:constructor make-terrain (sills wheels suspension)) (:copier nil))
-  "SILLS are the pieces that are driven over, WHEELS the places (x . y) of the wheels in the frame of
-the base: front left and right, rear left and right."
+  "SILLS are the pieces that are driven over, WHEELS the places (x . y) of the wheels in the frame
+of the base: front left and right, rear left and right."
   (sills '() :type list :read-only t)
   (wheels '() :type list :read-only t)
   (suspension 0.05d0 :type double-float :read-only t))
@@ -37,8 +37,8 @@ the base: front left and right, rear left and right."
         (t (* fraction fraction fraction (+ 10 (* fraction (- (* 6 fraction) 15)))))))
 
 (defun outside-distance (piece x y)
-  "Return a lower bound of how far (m) the point X, Y is outside of PIECE; it is exact, and negative,
-inside."
+  "Return a lower bound of how far (m) the point X, Y is outside of PIECE; it is exact, and
+negative, inside."
   (declare (double-float x y) (optimize speed (safety 1)))
   (let ((edges (piece-edges piece)) (distance -1d9))
     (declare (type doubles edges) (double-float distance))
@@ -69,11 +69,14 @@ YAW, as four values, and whether it is 0 under all."
                (declare (double-float a b))
                (ground-height terrain (+ x (- (* cosine a) (* sine b)))
                               (+ y (+ (* sine a) (* cosine b)))))))
-      (destructuring-bind (front-left front-right rear-left rear-right) (terrain-wheels terrain)
-        (let ((a (height front-left)) (b (height front-right))
-              (c (height rear-left)) (d (height rear-right)))
-          (declare (double-float a b c d))
-          (values a b c d (= 0d0 a b c d)))))))
+      (if (terrain-sills terrain)
+          (destructuring-bind (front-left front-right rear-left rear-right)
+              (terrain-wheels terrain)
+            (let ((a (height front-left)) (b (height front-right))
+                  (c (height rear-left)) (d (height rear-right)))
+              (declare (double-float a b c d))
+              (values a b c d (= 0d0 a b c d))))
+          (values 0d0 0d0 0d0 0d0 t)))))
 
 (defun ground-pose (terrain x y z yaw)
   "Return the pose of the base at X, Y, turned by YAW, at the height Z above the ground of TERRAIN."

@@ -61,25 +61,34 @@ and Y1."
                        x0 y0 x1 y1))))))
 
 (defun planar-hull (points)
-  "Return the corners of the convex hull of POINTS, a list of (x . y), counterclockwise."
-  (let ((points (sort (copy-list points)
-                      (lambda (a b) (or (< (car a) (car b))
-                                        (and (= (car a) (car b)) (< (cdr a) (cdr b))))))))
-    (labels ((right-turn-p (a b c)
-               (<= (- (* (- (car b) (car a)) (- (cdr c) (cdr a)))
-                      (* (- (cdr b) (cdr a)) (- (car c) (car a))))
-                   1d-15))
-             (chain (points)
-               (let ((stack '()))
-                 (dolist (point points (rest stack))
-                   (loop while (and (rest stack)
-                                    (right-turn-p (second stack) (first stack) point))
-                         do (pop stack))
-                   (push point stack)))))
-      (let ((corners (append (reverse (chain points)) (reverse (chain (reverse points))))))
-        (coerce (loop for (x . y) in (or corners (list (first points)))
-                      collect x collect y)
-                'doubles)))))
+  "Return the corners of the convex hull of POINTS, a list of (x . y) of double floats,
+counterclockwise."
+  (declare (optimize speed (safety 1)) (sb-ext:muffle-conditions sb-ext:compiler-note))
+  (labels ((before-p (a b)
+             (let ((ax (car a)) (bx (car b)))
+               (declare (double-float ax bx))
+               (or (< ax bx)
+                   (and (= ax bx) (< (the double-float (cdr a)) (the double-float (cdr b)))))))
+           (right-turn-p (a b c)
+             (let ((ax (car a)) (ay (cdr a)) (bx (car b)) (by (cdr b)) (cx (car c)) (cy (cdr c)))
+               (declare (double-float ax ay bx by cx cy))
+               (<= (- (* (- bx ax) (- cy ay)) (* (- by ay) (- cx ax))) 1d-15)))
+           (chain (points)
+             (let ((stack '()))
+               (dolist (point points (rest stack))
+                 (loop while (and (rest stack)
+                                  (right-turn-p (second stack) (first stack) point))
+                       do (pop stack))
+                 (push point stack)))))
+    (let* ((points (sort (copy-list points) #'before-p))
+           (corners (append (reverse (chain points)) (reverse (chain (reverse points)))))
+           (corners (or corners (list (first points))))
+           (polygon (make-array (* 2 (length corners)) :element-type 'double-float)))
+      (loop for (x . y) in corners
+            for i of-type fixnum from 0 by 2
+            do (setf (aref polygon i) (the double-float x)
+                     (aref polygon (1+ i)) (the double-float y)))
+      polygon)))
 
 (defconstant +sides+ 16
   "Circles count as polygons of so many sides around them.")
@@ -131,11 +140,35 @@ and Y1."
                                               0d0 0d0 0d0 1d0))))
     (list (pose-x point) (pose-y point) (pose-z point))))
 
-(defun shape-pieces (shape pose)
-  "Return the list of the pieces of SHAPE at POSE."
+(defun computed-pieces (shape pose)
   (let ((pieces '()))
     (pieces-of shape pose (lambda (part pose) (push (convex-piece part pose) pieces)))
     (nreverse pieces)))
+
+(defvar *known-pieces* (make-hash-table :test #'eq :weakness :key :synchronized t)
+  "For each shape a list of (pose . pieces), the latest first.")
+
+(defconstant +known-pieces+ 16
+  "The pieces of a shape are kept for so many of its latest poses.")
+
+(defun same-pose-p (a b)
+  (declare (optimize speed (safety 1)) (type pose a b))
+  (and (= (pose-x a) (pose-x b)) (= (pose-y a) (pose-y b)) (= (pose-z a) (pose-z b))
+       (= (pose-qx a) (pose-qx b)) (= (pose-qy a) (pose-qy b)) (= (pose-qz a) (pose-qz b))
+       (= (pose-qw a) (pose-qw b))))
+
+(defun shape-pieces (shape pose)
+  "Return the list of the pieces of SHAPE at POSE.  Most shapes are asked for where they have been
+before, so that the pieces are kept; nothing depends on that."
+  (let* ((known (gethash shape *known-pieces*))
+         (entry (find pose known :key #'car :test #'same-pose-p)))
+    (if entry
+        (cdr entry)
+        (let ((pieces (computed-pieces shape pose)))
+          (setf (gethash shape *known-pieces*)
+                (cons (cons pose pieces)
+                      (if (< (length known) +known-pieces+) known (butlast known))))
+          pieces))))
 
 (defun turned-piece (piece yaw)
   "Return PIECE, turned by YAW (rad) about the origin."
