@@ -80,10 +80,11 @@ where each item is, and what of it stands; and the hash of the final state."
   "In the same process, in another one, in one thread and in four."
   (kitchen-plans)
   (let* ((indices (loop for index below (if *long* 1000 8) collect index))
+         (others (if *long* indices (subseq indices 0 4)))
          (hashes (run-hashes indices)))
     (is (equal hashes (hashes-in-threads indices 1)))
     (is (equal hashes (hashes-in-threads indices 4)))
-    (is (equal (subseq hashes 0 4) (hashes-in-another-process (subseq indices 0 4))))
+    (is (equal (subseq hashes 0 (length others)) (hashes-in-another-process others)))
     (is (= (length hashes) (length (remove-duplicates hashes))) "each sample is another")))
 
 (test worlds-of-the-kitchen-leave-nothing-behind
