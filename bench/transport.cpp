@@ -8,8 +8,8 @@
 // finds three items (drives to the counter, asks 200 rays whether the item is seen), picks each up
 // and delivers it (drives to the table, puts it down); drives to a drawer and opens it, does the
 // same with the item in it, and closes it.  Every step moves all links as kinematic bodies.  A held
-// item hangs on a fixed constraint with joint feedback, drawers on sliders.  There is no planning: no
-// inverse kinematics, no search for paths, no test whether the robot collides with anything.
+// item hangs on a fixed constraint with joint feedback, drawers on sliders.  There is no planning:
+// no inverse kinematics, no search for paths, no test whether the robot collides with anything.
 
 #include <btBulletDynamicsCommon.h>
 

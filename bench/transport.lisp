@@ -2,10 +2,10 @@
 ;;;; peer in plain C++ on Bullet.
 ;;;;
 ;;;; The robot finds three items on the workspace, one after the other, picks each up and delivers
-;;;; it to the table; it drives to a drawer, opens it, does the same with the spoon in it, and closes
-;;;; the drawer.  The peer has the same scene and as many steps for each action, as this plan says, but
-;;;; plans nothing: no inverse kinematics, no path, no test for collisions.  All times are processor
-;;;; time, for the machine may have other users.
+;;;; it to the table; it drives to a drawer, opens it, does the same with the spoon in it, and
+;;;; closes the drawer.  The peer has the same scene and as many steps for each action, as this plan
+;;;; says, but plans nothing: no inverse kinematics, no path, no test for collisions.  All times are
+;;;; processor time, for the machine may have other users.
 
 (in-package #:discrepancy-finder.bench)
 
