@@ -62,9 +62,10 @@
                 #:invalid-confidence #:invalid-delta #:unknown-confidence-rule)
   (:import-from #:discrepancy-finder.projection
                 #:load-scene #:with-projection #:observed-pose #:observed-joint
-                #:held-items #:simulated-seconds
+                #:held-items #:simulated-seconds #:view-world
                 #:projection-error #:scene-error #:urdf-error #:unknown-parameter
-                #:impossible-parameter #:unknown-body #:missing-robot-part)
+                #:impossible-parameter #:unknown-body #:unknown-joint
+                #:impossible-joint-position #:missing-robot-part #:picture-error)
   (:import-from #:discrepancy-finder.source #:source-error)
   (:import-from #:discrepancy-finder.z3
                 #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat)
@@ -93,7 +94,7 @@
    #:verification-problem #:verification-bounds
    ;; projection
    #:load-scene #:with-projection #:observed-pose #:observed-joint #:held-items
-   #:simulated-seconds
+   #:simulated-seconds #:view-world
    #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
    ;; the search
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-text
@@ -110,8 +111,8 @@
    #:not-in-top-level #:nested-top-level #:deadlock
    #:malformed-designator #:unknown-designator-key
    #:domain-not-found #:source-error #:scene-error #:urdf-error
-   #:projection-error #:unknown-parameter #:impossible-parameter #:unknown-body
-   #:missing-robot-part
+   #:projection-error #:unknown-parameter #:impossible-parameter #:unknown-body #:unknown-joint
+   #:impossible-joint-position #:missing-robot-part #:picture-error
    #:symbolic-execution-error #:plan-broke #:unsupported-form #:nondeterministic-plan
    #:unknown-argument-type #:file-output-refused #:invalid-trace #:coverage-not-recorded
    #:action-problem
