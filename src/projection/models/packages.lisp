@@ -17,7 +17,10 @@
   (remove "" (uiop:split-string (or (uiop:getenv variable) "") :separator ":") :test #'string=))
 
 (defun folder-pathname (folder)
-  (uiop:ensure-directory-pathname (source:native-path folder)))
+  "Return the pathname of the directory FOLDER; a string is taken by its characters."
+  (if (stringp folder)
+      (uiop:parse-native-namestring folder :ensure-directory t)
+      (uiop:ensure-directory-pathname folder)))
 
 (defun folders-above (file)
   "Return the folders in which FILE is, the innermost first."

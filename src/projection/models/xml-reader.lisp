@@ -9,7 +9,7 @@
 (in-package #:discrepancy-finder.projection)
 
 (foreign:define-library expat "the XML parser expat" ("libexpat.so.1" "libexpat.so")
-  :hint "the Debian package libexpat1")
+  :hint "apt-get install libexpat1")
 
 (cffi:defcfun ("XML_ParserCreate" %expat-create) :pointer (encoding :pointer))
 (cffi:defcfun ("XML_ParserFree" %expat-free) :void (parser :pointer))
