@@ -19,7 +19,8 @@
 (defun folder-pathname (folder)
   "Return the pathname of the directory FOLDER; a string is taken by its characters."
   (if (stringp folder)
-      (uiop:parse-native-namestring folder :ensure-directory t)
+      ;; UIOP's way from a file name to a directory would escape the characters of a pattern.
+      (uiop:parse-native-namestring (concatenate 'string folder "/"))
       (uiop:ensure-directory-pathname folder)))
 
 (defun folders-above (file)
