@@ -61,10 +61,12 @@
   (:import-from #:discrepancy-finder.statistics
                 #:invalid-confidence #:invalid-delta #:unknown-confidence-rule)
   (:import-from #:discrepancy-finder.projection
-                #:load-scene #:with-projection #:observed-pose #:observed-joint
-                #:held-items #:simulated-seconds
+                #:load-scene #:read-urdf #:with-projection #:make-projection #:close-projection
+                #:observed-pose #:observed-joint #:held-items #:item-at-rest-p
+                #:simulated-seconds #:state-hash #:view-world #:viewing-pose
+                #:watch-projection #:make-frame-recorder #:frame-observer #:finish-frames
                 #:projection-error #:scene-error #:urdf-error #:unknown-parameter
-                #:impossible-parameter #:unknown-body #:missing-robot-part)
+                #:impossible-parameter #:unknown-body #:missing-robot-part #:picture-error)
   (:import-from #:discrepancy-finder.source #:source-error)
   (:import-from #:discrepancy-finder.z3
                 #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat)
@@ -92,8 +94,10 @@
    #:verify-plan #:verification #:verification-verdict #:verification-counterexample
    #:verification-problem #:verification-bounds
    ;; projection
-   #:load-scene #:with-projection #:observed-pose #:observed-joint #:held-items
-   #:simulated-seconds
+   #:load-scene #:read-urdf #:with-projection #:make-projection #:close-projection
+   #:observed-pose #:observed-joint #:held-items #:item-at-rest-p #:simulated-seconds
+   #:state-hash #:view-world #:viewing-pose
+   #:watch-projection #:make-frame-recorder #:frame-observer #:finish-frames
    #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
    ;; the search
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-text
@@ -111,7 +115,7 @@
    #:malformed-designator #:unknown-designator-key
    #:domain-not-found #:source-error #:scene-error #:urdf-error
    #:projection-error #:unknown-parameter #:impossible-parameter #:unknown-body
-   #:missing-robot-part
+   #:missing-robot-part #:picture-error
    #:symbolic-execution-error #:plan-broke #:unsupported-form #:nondeterministic-plan
    #:unknown-argument-type #:file-output-refused #:invalid-trace #:coverage-not-recorded
    #:action-problem
