@@ -352,4 +352,7 @@ VIEWPOINT, and NIL if it is outside of the picture."
                                        :state '((cereal :x 5)))))))
   (signals projection:unknown-body
     (discrepancy:run-in-scene 'discrepancy-finder-user::find-object (table-top-scene)
-                              :state '((teapot :x 1.5)))))
+                              :state '((teapot :x 1.5))))
+  (signals-with (discrepancy:invalid-argument "seed is -1" "an integer from 0")
+    (discrepancy:run-in-scene 'discrepancy-finder-user::find-object (table-top-scene)
+                              :seed -1)))
