@@ -101,7 +101,7 @@ well-formed SHAPE, which is no plane, and MASS (kg), evenly spread.  Products ar
   "Turn AXES, and the symmetric MATRIX into them, in the plane of P and Q so that its element there
 becomes zero: a step of Jacobi's method."
   (let ((off (aref matrix p q)))
-    (unless (< (abs off) (* 1d-15 (+ (abs (aref matrix p p)) (abs (aref matrix q q)))))
+    (unless (<= (abs off) (* 1d-15 (+ (abs (aref matrix p p)) (abs (aref matrix q q)))))
       (let* ((theta (/ (- (aref matrix q q) (aref matrix p p)) (* 2 off)))
              (tangent (/ (if (minusp theta) -1 1) (+ (abs theta) (sqrt (1+ (* theta theta))))))
              (c (/ (sqrt (1+ (* tangent tangent)))))

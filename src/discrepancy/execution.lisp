@@ -294,6 +294,8 @@ bits, provided that the plan does not read global variables that it writes."
   "Return the sample of SCENE in which the bodies have the coordinates in STATE, the argument of
 RUN-PLAN, and the tolerances the values that SEED draws, or those in the middle if it is NIL."
   (check-state-argument state)
+  (unless (typep seed '(or null (unsigned-byte 64)))
+    (error 'invalid-argument :name 'seed :value seed :expected "an integer from 0 to 2^64 - 1"))
   (draw-sample
    (append (loop for (body . coordinates) in state
                  append (loop for (axis value) on coordinates by #'cddr

@@ -61,8 +61,10 @@
   (:import-from #:discrepancy-finder.statistics
                 #:invalid-confidence #:invalid-delta #:unknown-confidence-rule)
   (:import-from #:discrepancy-finder.projection
-                #:load-scene #:with-projection #:observed-pose #:observed-joint
-                #:held-items #:simulated-seconds #:view-world
+                #:load-scene #:read-urdf #:with-projection #:make-projection #:close-projection
+                #:observed-pose #:observed-joint #:held-items #:item-at-rest-p
+                #:simulated-seconds #:state-hash #:view-world #:viewing-pose
+                #:watch-projection #:make-frame-recorder #:frame-observer #:finish-frames
                 #:projection-error #:scene-error #:urdf-error #:unknown-parameter
                 #:impossible-parameter #:unknown-body #:unknown-joint
                 #:impossible-joint-position #:missing-robot-part #:picture-error)
@@ -93,8 +95,10 @@
    #:verify-plan #:verification #:verification-verdict #:verification-counterexample
    #:verification-problem #:verification-bounds
    ;; projection
-   #:load-scene #:with-projection #:observed-pose #:observed-joint #:held-items
-   #:simulated-seconds #:view-world
+   #:load-scene #:read-urdf #:with-projection #:make-projection #:close-projection
+   #:observed-pose #:observed-joint #:held-items #:item-at-rest-p #:simulated-seconds
+   #:state-hash #:view-world #:viewing-pose
+   #:watch-projection #:make-frame-recorder #:frame-observer #:finish-frames
    #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
    ;; the search
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-text

@@ -94,7 +94,9 @@
   (let* ((plan (plan-argument arguments))
          (recorder (and (getf options :frames)
                         (projection:make-frame-recorder (getf options :frames)))))
-    (prog1 (print-simulation (simulate-plan plan options recorder))
+    (prog1 (print-simulation (unwind-protect (simulate-plan plan options recorder)
+                               (when recorder
+                                 (projection:abandon-frames recorder))))
       (when recorder
         (format t "~d frames, two pictures each, in ~a~%" (projection:finish-frames recorder)
                 (getf options :frames))))))

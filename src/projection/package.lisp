@@ -45,6 +45,7 @@
    ;; pictures
    #:view-world #:viewing-pose #:picture-error #:picture-error-reason
    #:watch-projection #:recorder #:make-frame-recorder #:frame-observer #:finish-frames
+   #:abandon-frames
    ;; manipulation
    ;; process modules
    #:execute-designator #:executes-p #:drive-base #:move-arm #:move-head

@@ -155,4 +155,8 @@
     (multiple-value-bind (moments pose) (bullet:principal-axes 3 1 2 0 0 0)
       (is (equal '(3d0 1d0 2d0) moments))
       (is (geometry:pose= (geometry:identity-pose) pose)))
+    ;; with zeros on the diagonal
+    (is (equal '(0d0 0d0 4d0) (bullet:principal-axes 0 0 4 0 0 0)))
+    (is (all-near-p '(-2d0 0d0 2d0) 1d-12
+                    (sort (bullet:principal-axes 0 0 0 0 2 0) #'<)))
     (signals bullet:bullet-error (bullet:principal-axes 1 1 1 0 (nan) 0))))

@@ -306,6 +306,18 @@ VIEWPOINT, and NIL if it is outside of the picture."
               (hash :observer (projection:frame-observer
                                (projection:make-frame-recorder folder)))))))))
 
+(test frames-go-where-they-are-told
+  (signals-with (projection:picture-error "directory for frames is empty")
+    (projection:make-frame-recorder ""))
+  (call-in-new-folder
+   (lambda (folder)
+     (let ((recorder (projection:make-frame-recorder (concatenate 'string folder "a/c [b]*"))))
+       (is (equal '("c [b]*") (folder-files (concatenate 'string folder "a"))))
+       (projection:abandon-frames recorder)
+       (is (equal '() (folder-files folder)) "what was made is removed"))
+     (projection:abandon-frames (projection:make-frame-recorder folder))
+     (is (uiop:directory-exists-p folder) "what was there is not"))))
+
 (test frames-that-cannot-be-written-are-told
   (signals-with (projection:picture-error "/proc/nowhere" "cannot be written")
     (projection:make-frame-recorder "/proc/nowhere/"))
@@ -340,4 +352,7 @@ VIEWPOINT, and NIL if it is outside of the picture."
                                        :state '((cereal :x 5)))))))
   (signals projection:unknown-body
     (discrepancy:run-in-scene 'discrepancy-finder-user::find-object (table-top-scene)
-                              :state '((teapot :x 1.5)))))
+                              :state '((teapot :x 1.5))))
+  (signals-with (discrepancy:invalid-argument "seed is -1" "an integer from 0")
+    (discrepancy:run-in-scene 'discrepancy-finder-user::find-object (table-top-scene)
+                              :seed -1)))

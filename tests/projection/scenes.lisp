@@ -174,6 +174,8 @@ the names of URDF files."
     ("(:item cup CUP (:at 0 0 1e400))" ":2: " "1e400")
     ("(:item cup CUP (:at 0 0 1) (:grasps 7))" ":2: " "a grasp is a name")
     ("(:item cup CUP (:at 0 0 1) (:grasps (top 1 2)))" ":2: " "(name x y z)")
+    ("(:item cup CUP (:at 0 0 1) (:grasps top up))" ":2: " "no grasp up; top, bottom, front")
+    ("(:item cup \"no-such\" (:at 0 0 1))" ":2: " "no-such: no such file")
     ("(:item cup CUP . (:at 0 0 1) )" ":2: ")
     ("(:item nil CUP (:at 0 0 1))" ":2: " "(:item name \"file.urdf\" option*)")
     (,(format nil "(:item cup CUP (:at 0 0 1))~%(:item cup CUP (:at 0 0 1))")

@@ -70,6 +70,12 @@
                      collect (projection::urdf-joint-mimic
                               (projection::find-urdf-joint model name)))))))
 
+(test a-fixed-joint-follows-nothing
+  (with-urdf (model *two-links* "<link name=\"c\"/>"
+                    (joint-with "<mimic joint=\"k\"/>" :type "fixed")
+                    (joint-with *limit* :name "k" :child "c"))
+    (is (null (projection::urdf-joint-mimic (projection::find-urdf-joint model "j"))))))
+
 (test joints-come-after-the-joint-above
   (with-urdf (model "<link name=\"c\"/><link name=\"b\"/><link name=\"a\"/><link name=\"d\"/>"
                     (joint-with "" :type "fixed" :name "bc" :parent "b" :child "c")
@@ -166,6 +172,15 @@
   (with-urdf (model (link-with (inertia-text '(0d0 0d0 0d0 0d0 0d0 0d0))))
     (is (null (projection::urdf-link-inertia (first-link model))))
     (is (null (projection::urdf-link-fault (first-link model))))))
+
+(test inertia-without-a-diagonal-is-a-fault
+  (dolist (tensor '((0d0 0d0 1d0 0d0 0d0 0d0) (0d0 0d0 0d0 0d0 2d-35 0d0)))
+    (with-urdf (model (link-with (inertia-text tensor)))
+      (is (typep (projection::urdf-link-fault (first-link model)) 'projection:urdf-error)))))
+
+(test text-of-many-lines-is-passed-over
+  (with-urdf (model (link-with (make-string 200000 :initial-element #\Newline)))
+    (is (string= "a" (projection:urdf-model-root model)))))
 
 (test colors-come-from-the-first-visual-that-has-one
   (with-urdf (model "<material name=\"red\"><color rgba=\"1 0 0 1\"/></material>"

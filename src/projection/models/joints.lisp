@@ -106,7 +106,8 @@ joint that follows another has a MIMIC (name multiplier offset)."
        :lower lower :upper upper :effort effort :velocity velocity
        :damping (if dynamics (natural-attribute dynamics "damping") 0d0)
        :friction (if dynamics (natural-attribute dynamics "friction") 0d0)
-       :mimic (joint-mimic element)))))
+       ;; A fixed joint has nothing to follow with, whatever TALOS's file says.
+       :mimic (unless (eq type :fixed) (joint-mimic element))))))
 
 ;;; Joints that follow others
 
@@ -132,9 +133,6 @@ joint that follows another has a MIMIC (name multiplier offset)."
     (unless (eq leader joint)
       (when (eq (urdf-joint-type leader) :fixed)
         (joint-problem joint "it follows the joint ~a, which is fixed" (urdf-joint-name leader)))
-      (when (eq (urdf-joint-type joint) :fixed)
-        (joint-problem joint "it is fixed and cannot follow the joint ~a"
-                       (urdf-joint-name leader)))
       (list (urdf-joint-name leader) multiplier offset))))
 
 (defun resolved-joints (joints)

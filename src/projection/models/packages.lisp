@@ -17,7 +17,11 @@
   (remove "" (uiop:split-string (or (uiop:getenv variable) "") :separator ":") :test #'string=))
 
 (defun folder-pathname (folder)
-  (uiop:ensure-directory-pathname (source:native-path folder)))
+  "Return the pathname of the directory FOLDER; a string is taken by its characters."
+  (if (stringp folder)
+      ;; UIOP's way from a file name to a directory would escape the characters of a pattern.
+      (uiop:parse-native-namestring (concatenate 'string folder "/"))
+      (uiop:ensure-directory-pathname folder)))
 
 (defun folders-above (file)
   "Return the folders in which FILE is, the innermost first."

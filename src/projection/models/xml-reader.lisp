@@ -9,7 +9,7 @@
 (in-package #:discrepancy-finder.projection)
 
 (foreign:define-library expat "the XML parser expat" ("libexpat.so.1" "libexpat.so")
-  :hint "the Debian package libexpat1")
+  :hint "apt-get install libexpat1")
 
 (cffi:defcfun ("XML_ParserCreate" %expat-create) :pointer (encoding :pointer))
 (cffi:defcfun ("XML_ParserFree" %expat-free) :void (parser :pointer))
@@ -75,11 +75,19 @@ control and its arguments, or NIL."
       (when (> (length (reading-open *reading*)) +greatest-depth+)
         (note-problem "its elements are nested more than ~d deep" +greatest-depth+)))))
 
+(defun joined (pieces)
+  "Return the strings PIECES, the last one first, as one.  There can be as many as lines in a file."
+  (let* ((end (loop for piece in pieces sum (length piece)))
+         (text (make-string end)))
+    (dolist (piece pieces text)
+      (decf end (length piece))
+      (replace text (the string piece) :start1 end))))
+
 (cffi:defcallback end-element :void ((data :pointer) (name :pointer))
   (declare (ignore data name))
   (unless (reading-problem *reading*)
     (let ((element (pop (reading-open *reading*)))
-          (text (apply #'concatenate 'string (reverse (pop (reading-texts *reading*))))))
+          (text (joined (pop (reading-texts *reading*)))))
       (setf (xml-element-children element) (nreverse (xml-element-children element))
             (xml-element-text element) (string-trim *white-space* text)))))
 

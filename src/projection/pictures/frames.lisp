@@ -10,17 +10,31 @@
 (defstruct (recorder (:copier nil))
   "Writes frames into DIRECTORY.  CAMERA is the pose from which all perspective pictures are taken,
 NIL before the first; CAPTIONS a list of texts, the last frame's first; PROBLEM the error that kept
-a frame from being written, or NIL."
+a frame from being written, or NIL.  NEW-FOLDERS are those that were made for it, innermost first."
   (directory nil :type pathname :read-only t)
+  (new-folders '() :type list :read-only t)
   (camera nil :type (or null pose))
   (captions '() :type list)
   (problem nil))
 
+(defun frame-folder (directory)
+  "Return the absolute pathname of the folder DIRECTORY.  Signals PICTURE-ERROR if it is empty."
+  (when (equal directory "")
+    (picture-problem "The name of the directory for frames is empty"))
+  (merge-pathnames (folder-pathname directory) (uiop:getcwd)))
+
+(defun missing-folders (path)
+  "Return PATH and the folders above it as far as they do not exist."
+  (loop until (or (uiop:directory-exists-p path)
+                  (uiop:pathname-equal path (uiop:pathname-parent-directory-pathname path)))
+        collect path
+        do (setf path (uiop:pathname-parent-directory-pathname path))))
+
 (defun make-frame-recorder (directory)
   "Return a recorder of frames that are written into DIRECTORY, which is made if need be.  Signals
 PICTURE-ERROR if that cannot be or nothing can be written there."
-  (let* ((path (merge-pathnames (uiop:ensure-directory-pathname (source:native-path directory))
-                                (uiop:getcwd)))
+  (let* ((path (frame-folder directory))
+         (new-folders (missing-folders path))
          (probe (merge-pathnames (format nil ".~36r.tmp" (random (expt 36 8)
                                                                  (make-random-state t)))
                                  path)))
@@ -32,7 +46,13 @@ PICTURE-ERROR if that cannot be or nothing can be written there."
       ((or file-error stream-error) (condition)
         (picture-problem "The directory ~a cannot be written to: ~a" directory
                          (string-right-trim "." (source:condition-sentence condition)))))
-    (make-recorder :directory path)))
+    (make-recorder :directory path :new-folders new-folders)))
+
+(defun abandon-frames (recorder)
+  "Remove the folders that were made for RECORDER, if it has not recorded anything."
+  (unless (recorder-captions recorder)
+    (ignore-errors (mapc #'uiop:delete-empty-directory (recorder-new-folders recorder))))
+  (values))
 
 (defun frame-file (recorder number view type)
   (merge-pathnames (format nil "frame-~3,'0d-~(~a~).~a" number view type)

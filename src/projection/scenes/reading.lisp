@@ -10,7 +10,8 @@
 
 (defun read-part-model (name clause file)
   "Return the URDF model in the file that CLAUSE of the scene in FILE names NAME."
-  (let ((path (merge-pathnames (source:native-path name) (source:native-path file))))
+  (let ((path (merge-pathnames (source:native-path name)
+                               (uiop:pathname-directory-pathname (source:native-path file)))))
     (unless (uiop:file-exists-p path)
       (scene-problem file clause "~a: no such file" (source:native-name path)))
     (read-urdf path)))
@@ -22,18 +23,24 @@
       (scene-problem file clause "the item ~(~a~) must have one link, with a mass and a shape"
                      (second clause)))))
 
+(defparameter *grasp-sides* '(:top :bottom :front :back :left-side :right-side)
+  "The sides from which an item can be grasped, by CRAM's names.")
+
 (defun clause-grasps (clause file)
   "Return the grasps that the :grasps option of CLAUSE lists: keywords and (keyword x y z)."
   (let ((option (find-option (clause-options clause) :grasps)))
-    (loop for grasp in (rest option)
-          collect (cond ((parameter-name-p grasp) (source:name-keyword grasp))
-                        ((and (consp grasp) (parameter-name-p (first grasp))
-                              (= (length grasp) 4) (every #'coordinate-p (rest grasp)))
-                         (cons (source:name-keyword (first grasp))
-                               (mapcar #'decimal-double (rest grasp))))
-                        (t (scene-problem file (if (consp grasp) grasp option)
-                                          "a grasp is a name or (name x y z), not ~(~s~)"
-                                          grasp))))))
+    (flet ((side (name)
+             (or (find (source:name-keyword name) *grasp-sides*)
+                 (scene-problem file option "there is no grasp ~(~a~); ~{~(~a~)~^, ~} are" name
+                                *grasp-sides*))))
+      (loop for grasp in (rest option)
+            collect (cond ((parameter-name-p grasp) (side grasp))
+                          ((and (consp grasp) (parameter-name-p (first grasp))
+                                (= (length grasp) 4) (every #'coordinate-p (rest grasp)))
+                           (cons (side (first grasp)) (mapcar #'decimal-double (rest grasp))))
+                          (t (scene-problem file (if (consp grasp) grasp option)
+                                            "a grasp is a name or (name x y z), not ~(~s~)"
+                                            grasp)))))))
 
 (defun parse-part (clause file)
   "Return the SCENE-PART that CLAUSE of the scene in FILE describes."
