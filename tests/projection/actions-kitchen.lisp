@@ -138,7 +138,7 @@
       (is-true (plan:perform (plan:an action (type looking) (pose ?point)))))))
 
 (test a-location-without-a-solution-is-a-failure
-  "What is nowhere cannot be gone to, looked at or reached; plans of actions make that their failure."
+  "What is nowhere cannot be gone to, looked at or reached; plans of actions fail then, too."
   (flet ((failure-of (class type key value)
            (with-settled-kitchen (projection)
              (handler-case (plan:perform (plan:make-designator class

@@ -50,8 +50,8 @@ execution fails, DESIGNATOR-NOT-UNDERSTOOD if it cannot be interpreted.")
                                  (plan:desig-prop-value designator :type) designator)))))))
 
 (defun pose-meant (value)
-  "Return the pose that VALUE, of a designator that is performed, means, or NIL if it is nothing with
-a pose.  Signals DESIGNATOR-REFERENCE-FAILURE if it is a location without a solution."
+  "Return the pose that VALUE, of a designator that is performed, means, or NIL if it is nothing
+with a pose.  Signals DESIGNATOR-REFERENCE-FAILURE if it is a location without a solution."
   (or (plan:designated-pose value)
       (when (typep value 'plan:location-designator)
         (plan:try-reference-designator value)
