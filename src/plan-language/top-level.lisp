@@ -117,14 +117,17 @@ NIL, and return its values."
 (defun call-in-implicit-top-level (function)
   "Call FUNCTION, which may perform and may also make top-levels, and return its values: in a
 top-level that gives way to those, unless one runs already.  FUNCTION itself is no plan: handlers
-around it see what it signals at once."
+around it see what it signals at once, and an error of a task that it started as that error."
   (if *current-task*
       (funcall function)
       (let ((handlers (current-handlers)))
         (call-in-top-level (lambda ()
                              (let ((*implicit-task* *current-task*))
                                (with-handlers (handlers)
-                                 (funcall function))))))))
+                                 (handler-bind ((common-lisp-error-envelope
+                                                  (lambda (envelope)
+                                                    (error (open-envelope envelope)))))
+                                   (funcall function)))))))))
 
 (defmacro top-level (&body body)
   "Evaluate BODY as a program of its own and return its values.  What it fails with is signaled

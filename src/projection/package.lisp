@@ -19,7 +19,7 @@
                 #:navigation-low-level-failure #:navigation-pose-unreachable
                 #:object-nowhere-to-be-found #:object-undeliverable #:object-unfetchable
                 #:object-unreachable #:perception-low-level-failure #:ptu-low-level-failure
-                #:environment-manipulation-impossible)
+                #:environment-manipulation-impossible #:environment-unreachable)
   (:import-from #:discrepancy-finder.designators #:designator-error)
   (:export
    ;; scenes

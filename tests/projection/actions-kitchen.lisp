@@ -130,6 +130,32 @@
                                      (object (plan:an object (type teapot)))
                                      (location (plan:a location (on table))))))))))
 
+(test going-and-looking-by-poses
+  (with-settled-kitchen (projection)
+    (let ((?place (geometry:make-pose -1.1 0.5 0 :yaw pi)) (?point (geometry:make-pose -2.1 0 0.9)))
+      (plan:perform (plan:an action (type going) (pose ?place)))
+      (is (nearly 0.5 (geometry:pose-y (projection:observed-pose projection :robot)) 1d-6))
+      (is-true (plan:perform (plan:an action (type looking) (pose ?point)))))))
+
+(test a-location-without-a-solution-is-a-failure
+  "What is nowhere cannot be gone to, looked at or reached; plans of actions fail then, too."
+  (flet ((failure-of (class type key value)
+           (with-settled-kitchen (projection)
+             (handler-case (plan:perform (plan:make-designator class
+                                                               `((:type ,type) (,key ,value))))
+               (plan:plan-failure (failure) (type-of failure))))))
+    (let ((?nowhere (plan:a location (on ceiling))) (?nothing (drawer 'drawer-9)))
+      (dolist (type '(:going :looking))
+        (dolist (class '(:motion :action))
+          (is (eq 'plan:designator-reference-failure
+                  (failure-of class type :target ?nowhere)))))
+      (is (eq 'plan:navigation-goal-in-collision
+              (failure-of :action :navigating :location ?nowhere)))
+      (is (eq 'plan:environment-manipulation-impossible
+              (failure-of :action :accessing :location (plan:a location (in ?nothing)))))
+      (is (eq 'plan:object-unfetchable
+              (failure-of :action :fetching :object (plan:an object (type unicorn))))))))
+
 (test accessing-and-sealing
   (with-settled-kitchen (projection)
     (let ((?place (in-drawer 'drawer-3)))

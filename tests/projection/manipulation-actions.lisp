@@ -48,6 +48,18 @@
                                          '(:left-configuration (5 0 0 -1 0 -1 0)))))
       "beyond a limit"))
 
+(test grippers-by-their-longer-names
+  (dolist (class '(:motion :action))
+    (is (equal '(0.045d0 0d0)
+               (call-in-kitchen
+                (lambda (projection)
+                  (loop for type in '(:opening-gripper :closing-gripper)
+                        do (perform-in projection
+                                       (performed-in-kitchen type class '(:gripper :left)))
+                        collect (projection:observed-joint projection
+                                                           "l_gripper_l_finger_joint")))
+                (standing-at -1 0 pi))))))
+
 (test grippers-open-and-close
   (flet ((positions (&rest designators)
            (call-in-kitchen

@@ -161,7 +161,7 @@ one after the other signals."
 (test what-is-out-of-reach
   (is (eq 'plan:manipulation-pose-unreachable
           (failure-in-kitchen (standing-at -0.6 0 pi) (picking-up-item :milk))))
-  (is (eq 'plan:manipulation-pose-unreachable
+  (is (eq 'plan:environment-unreachable
           (failure-in-kitchen (standing-at -0.6 0 pi) (opening-drawer :drawer-2))))
   (is (eq 'plan:manipulation-pose-unreachable
           (failure-in-kitchen (standing-at -1.3 0 pi) (moving-tool -2.9 0 1))))
@@ -199,6 +199,13 @@ one after the other signals."
                               (picking-up-item :milk '(:arm :left))
                               (picking-up-item :cereal '(:arm :left))))
       "the hand is full")
+  (is (eq 'plan:gripper-goal-not-reached
+          (failure-in-kitchen (standing-at -1.3 0.1 pi)
+                              (picking-up-item :milk '(:arm :left))
+                              (plan:make-designator :motion '((:type :moving-gripper-joint)
+                                                              (:gripper :left)
+                                                              (:joint-angle 0)))))
+      "the milk is in between")
   (is (eq 'plan:perception-object-not-found
           (failure-in-kitchen (standing-at -1.3 0.1 pi) (picking-up-item :teapot)))))
 
@@ -212,6 +219,9 @@ one after the other signals."
              (plan:designator-not-understood () t))))
     (is-true (refused-p :motion '(:type :moving-tcp)))
     (is-true (refused-p :motion '(:type :moving-arm-joints) '(:left-configuration (1 2))))
+    (is-true (refused-p :motion '(:type :moving-arm-joints) '(:left-configuration "ab")))
+    (is-true (refused-p :motion '(:type :moving-tcp) '(:collision-mode :allow-everything)
+                        (list :left-target (geometry:make-pose -1.85 -0.1 1))))
     (is-true (refused-p :motion '(:type :moving-gripper-joint) '(:gripper :left)))
     (is-true (refused-p :motion '(:type :gripping) '(:gripper :middle)))
     (is-true (refused-p :action '(:type :picking-up)))

@@ -94,6 +94,31 @@
         (warn "~a" projection)))
     (is (= 1 (length seen)))))
 
+(test errors-of-tasks-are-errors-outside-of-a-projection
+  "What goes wrong in a task of the body is seen outside as what it is, and in the body in CRAM's
+envelope."
+  (flet ((seen-outside (function)
+           (let ((seen '()))
+             (ignore-errors
+              (handler-bind ((serious-condition (lambda (condition)
+                                                  (push (type-of condition) seen))))
+                (projection:with-projection (projection (two-regions-scene))
+                  (funcall function))))
+             (remove-duplicates seen))))
+    (is (equal '(plan:designator-not-understood)
+               (seen-outside (lambda () (plan:perform (plan:a motion (type going)))))))
+    (is (equal '(type-error) (seen-outside (lambda () (plan:par (error 'type-error))))))
+    (is (equal '() (seen-outside (lambda ()
+                                   (plan:with-failure-handling
+                                       ((plan:common-lisp-error-envelope () (return)))
+                                     (plan:par (error 'type-error)))))))))
+
+(test poses-are-those-of-things-of-the-scene
+  (dolist (name '(:teapot :counter))
+    (signals projection:unknown-body
+      (projection:with-projection (projection (kitchen-scene)
+                                              :poses (list name (geometry:make-pose 0 0 0)))))))
+
 (test equal-projections-have-equal-bits
   (flet ((hash (fidelity)
            (projection:with-projection (projection (kitchen-scene) :fidelity fidelity)

@@ -11,7 +11,7 @@ does not succeed."
     (with-retry-counters ((relocations 10))
       (with-failure-handling
           (((or navigation-low-level-failure navigation-high-level-failure
-                manipulation-low-level-failure)
+                environment-unreachable manipulation-low-level-failure)
                (failure)
              (do-retry relocations
                (let ((next (next-location ?robot-location)))

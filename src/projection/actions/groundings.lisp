@@ -18,13 +18,17 @@
     (desig:desig-prop ?action (:type :going))
     (newest ?action :target ?target))
 
+  (prolog:<- (desig:default-action-grounding ?action (go-to-target ?pose))
+    (desig:desig-prop ?action (:type :going))
+    (desig:desig-prop ?action (:pose ?pose)))
+
   (prolog:<- (desig:default-action-grounding ?action (go-without-collisions ?location))
     (desig:desig-prop ?action (:type :navigating))
     (newest ?action :location ?location))
 
   (prolog:<- (desig:default-action-grounding ?action (look ?key ?value))
     (desig:desig-prop ?action (:type :looking))
-    (member ?key (:target :object :frame :direction :joint-angles))
+    (member ?key (:target :pose :object :frame :direction :joint-angles))
     (desig:desig-prop ?action (?key ?value)))
 
   (prolog:<- (desig:default-action-grounding ?action (turn-towards ?target))

@@ -44,8 +44,8 @@ not get, up to 30 times."
       (perform (an action (type going) (target ?location))))))
 
 (def-cram-function look (?key ?value)
-  "Point the camera: at ?VALUE by the ?KEY :target, :object, :frame, :direction or :joint-angles of
-a looking motion.  Try once more if it does not get there."
+  "Point the camera: at ?VALUE by the ?KEY :target, :pose, :object, :frame, :direction or
+:joint-angles of a looking motion.  Try once more if it does not get there."
   (with-retry-counters ((looking-retries 1))
     (with-failure-handling
         ((ptu-low-level-failure ()

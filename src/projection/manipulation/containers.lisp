@@ -189,7 +189,8 @@ follows over DISTANCE.  Return NIL, or why it was not done, a string."
     (unless arms
       (plan:fail 'plan:gripper-goal-not-reached
                  :action :opening :description (format nil "no free arm is left for ~a" what)))
-    (dolist (arm arms (fail-to-reach reason arms what))
+    (dolist (arm arms (plan:fail 'plan:environment-unreachable
+                                 :description (reach-problem reason arms what)))
       (multiple-value-bind (reach why)
           (find-reach projection arm (handle-candidates projection arm container distance)
                       :target (list (container-body projection container)))

@@ -181,7 +181,9 @@ them if it is NIL."
               (let ((held (let-go projection arm)))
                 (move-gripper projection arm position)
                 (when held (let-pass projection arm (item-body projection held) nil)))
-              (let ((reached (max position (closing-position projection arm))))
+              (let ((reached (if (held-item projection (arm-name arm))
+                                 (gripper-position projection arm)
+                                 (max position (closing-position projection arm)))))
                 (move-gripper projection arm reached)
                 (when (> reached (+ position 1d-3))
                   (plan:fail 'plan:gripper-goal-not-reached

@@ -1,6 +1,7 @@
 ;;;; The process modules of arms and grippers: which designator is executed by what.
 ;;;;
-;;;; Motions: moving-tcp, moving-arm-joints, opening, closing, gripping, moving-gripper-joint.
+;;;; Motions: moving-tcp, moving-arm-joints, opening and closing of grippers, which are also called
+;;;; opening-gripper and closing-gripper, gripping, moving-gripper-joint.
 ;;;; Actions: picking-up, placing, parking-arms, opening and closing of containers; and the atomic
 ;;;; ones of CRAM's pick-and-place plans: reaching, grasping, lifting, putting, retracting, pulling,
 ;;;; pushing, gripping, releasing, setting-gripper, opening and closing of grippers.
@@ -15,12 +16,15 @@
 
 ;;; Arms
 
-(defun watch-of (mode)
-  "Return what is watched in CRAM's collision mode MODE."
-  (case mode
-    ((nil :avoid-all) :all)
-    ((:allow-hand :allow-fingers :allow-arm :allow-attached) :allow-hand)
-    (t :allow-all)))
+(defun watch-of (designator)
+  "Return what is watched in CRAM's :collision-mode of DESIGNATOR."
+  (let ((mode (plan:desig-prop-value designator :collision-mode)))
+    (case mode
+      ((nil :avoid-all) :all)
+      ((:allow-hand :allow-fingers :allow-arm :allow-attached) :allow-hand)
+      (:allow-all :allow-all)
+      (t (misunderstood designator "a collision-mode is avoid-all, allow-hand, allow-fingers, ~
+                                    allow-arm, allow-attached or allow-all")))))
 
 (defun tool-goals (projection designator keys)
   "Return a list of (arm . pose) for what KEYS, of the left and of the right arm, have in
@@ -28,7 +32,7 @@ DESIGNATOR."
   (loop for key in keys
         for name in '(:left :right)
         for value = (plan:desig-prop-value designator key)
-        for pose = (and value (plan:designated-pose value))
+        for pose = (and value (pose-meant value))
         when value
           collect (cons (or (find-arm projection name)
                             (misunderstood designator
@@ -61,7 +65,7 @@ near as possible to the present ones.  Signals MANIPULATION-POSE-UNREACHABLE."
     (unless goals
       (misunderstood designator "a motion of type moving-tcp needs a left-target or right-target"))
     (move-tools projection goals
-                :watch (watch-of (plan:desig-prop-value designator :collision-mode)))))
+                :watch (watch-of designator))))
 
 (define-module :motion :moving-arm-joints (projection designator)
   (let* ((present (joint-positions (projection-robot projection)))
@@ -80,7 +84,7 @@ near as possible to the present ones.  Signals MANIPULATION-POSE-UNREACHABLE."
 (defun set-arm-joints (projection designator arm values positions)
   "Set the joints of ARM in POSITIONS to VALUES, a list of numbers or of (name number), of
 DESIGNATOR."
-  (let ((numbers (loop for value in values
+  (let ((numbers (loop for value in (alexandria:ensure-list values)
                        collect (if (consp value) (first (last value)) value))))
     (unless (and arm (= (length numbers) (length (arm-joints arm))) (every #'realp numbers))
       (misunderstood designator "a configuration is a number for each joint of an arm"))
@@ -102,6 +106,12 @@ DESIGNATOR."
 (define-module :motion :closing (projection designator)
   (close-grippers projection designator))
 
+(define-module :motion :opening-gripper (projection designator)
+  (open-grippers projection designator))
+
+(define-module :motion :closing-gripper (projection designator)
+  (close-grippers projection designator))
+
 (define-module :motion :gripping (projection designator)
   (grip-with-effort projection designator))
 
@@ -113,6 +123,12 @@ DESIGNATOR."
 
 (define-module :action :releasing (projection designator)
   (open-grippers projection designator))
+
+(define-module :action :opening-gripper (projection designator)
+  (open-grippers projection designator))
+
+(define-module :action :closing-gripper (projection designator)
+  (close-grippers projection designator))
 
 (define-module :action :setting-gripper (projection designator)
   (set-gripper projection designator :position))
@@ -149,7 +165,7 @@ DESIGNATOR."
                                  collect (cons (or (find-arm projection name)
                                                    (misunderstood designator
                                                                   "the robot has no such arm"))
-                                               (or (plan:designated-pose value)
+                                               (or (pose-meant value)
                                                    (misunderstood designator
                                                                   "that is no pose"))))
                          :watch watch))))

@@ -91,7 +91,7 @@ it is lost."
 (defun place (projection designator)
   "Place what the robot holds as DESIGNATOR, an action, says; return the item's name."
   (forget-lost-grasps projection)
-  (let ((target (plan:designated-pose (plan:desig-prop-value designator :target))))
+  (let ((target (pose-meant (plan:desig-prop-value designator :target))))
     (unless target
       (misunderstood designator "an action of type placing needs a target with a pose"))
     (let* ((arm (placing-arm projection designator))

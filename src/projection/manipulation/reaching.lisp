@@ -146,16 +146,19 @@ touched from where the hand comes on."
                 (when reach (return-from find-reach reach))
                 (when (eq why :collision) (setf reason why))))))))))
 
+(defun reach-problem (reason arms what)
+  "Return a sentence that says for which REASON, as FIND-REACH returns it, ARMS do not get to WHAT."
+  (format nil (if (eq reason :collision)
+                  "the ~{~(~a~)~^ and the ~} arm~p cannot get to ~a without touching something"
+                  "the ~{~(~a~)~^ and the ~} arm~p cannot reach ~a")
+          (mapcar #'arm-name arms) (length arms) what))
+
 (defun fail-to-reach (reason arms what)
   "Signal the failure for REASON, as FIND-REACH returns it."
-  (let ((names (format nil "the ~{~(~a~)~^ and the ~} arm~p" (mapcar #'arm-name arms)
-                       (length arms))))
-    (if (eq reason :collision)
-        (plan:fail 'plan:manipulation-goal-not-reached
-                   :description (format nil "~a cannot get to ~a without touching something" names
-                                        what))
-        (plan:fail 'plan:manipulation-pose-unreachable
-                   :description (format nil "~a cannot reach ~a" names what)))))
+  (plan:fail (if (eq reason :collision)
+                 'plan:manipulation-goal-not-reached
+                 'plan:manipulation-pose-unreachable)
+             :description (reach-problem reason arms what)))
 
 (defun with-present-grippers (projection way &key opening)
   "Return WAY with the grippers as they are now, but for that of the arm OPENING."

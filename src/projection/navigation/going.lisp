@@ -58,8 +58,8 @@ before."
 
 (defmethod execute-designator ((projection projection) (class (eql :motion)) (type (eql :going))
                                designator)
-  (let ((goal (plan:designated-pose (or (plan:desig-prop-value designator :pose)
-                                        (plan:desig-prop-value designator :target)))))
+  (let ((goal (pose-meant (or (plan:desig-prop-value designator :pose)
+                              (plan:desig-prop-value designator :target)))))
     (unless goal
       (misunderstood designator "a motion of type going needs a pose, or a target with a pose"))
     (drive-base projection goal)

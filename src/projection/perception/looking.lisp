@@ -61,7 +61,7 @@ move, where a limit forbids it."
                     (plan:desig-prop-value designator :target)))
          (frame (plan:desig-prop-value designator :frame))
          (direction (plan:desig-prop-value designator :direction)))
-    (cond (place (values (plan:designated-pose place) place))
+    (cond (place (values (pose-meant place) place))
           ((stringp frame) (values (frame-pose projection frame) frame))
           (direction (values (direction-target (projection-robot projection) direction)
                              direction)))))

@@ -132,6 +132,7 @@ Signals UNKNOWN-JOINT."
 
 (defun build-world (scene world fidelity poses joints)
   "Add all parts of SCENE to WORLD and return the projection."
+  (loop for (name) on poses by #'cddr do (check-movable scene name))
   (bullet:add-body world "ground" '(:plane 0d0 0d0 1d0 0d0) (identity-pose) :kind :static)
   (let ((solids '()) (fixture-joints '()))
     (dolist (part (scene-parts scene))

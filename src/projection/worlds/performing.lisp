@@ -13,7 +13,8 @@ execution fails, DESIGNATOR-NOT-UNDERSTOOD if it cannot be interpreted.")
   (:method ((projection projection) class type designator)
     (error 'plan:designator-not-understood
            :designator designator :executive "The projection"
-           :reason (format nil "no process module is for ~(~a~)s of type ~(~a~)" class type))))
+           :reason (format nil "no process module is for ~(~a~)s of type ~(~a~), and no plan for ~
+                                one with these keys" class type))))
 
 (defmethod plan:executive-clock ((projection projection))
   projection)
@@ -47,6 +48,14 @@ execution fails, DESIGNATOR-NOT-UNDERSTOOD if it cannot be interpreted.")
            (foreign:with-c-float-traps
              (execute-designator projection (plan:designator-class-keyword designator)
                                  (plan:desig-prop-value designator :type) designator)))))))
+
+(defun pose-meant (value)
+  "Return the pose that VALUE, of a designator that is performed, means, or NIL if it is nothing
+with a pose.  Signals DESIGNATOR-REFERENCE-FAILURE if it is a location without a solution."
+  (or (plan:designated-pose value)
+      (when (typep value 'plan:location-designator)
+        (plan:try-reference-designator value)
+        nil)))
 
 (defun misunderstood (designator reason)
   "Signal that DESIGNATOR is not understood for REASON, a format control without arguments."

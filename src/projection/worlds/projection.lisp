@@ -46,7 +46,7 @@
               robot, by their names, strings; the limits bound them
   PARAMETERS  property list of values of parameters and tolerances that replace the scene's
   FIDELITY    :FULL steps all of every motion, :FAST what something can depend on
-Signals BULLET-ERROR for impossible numbers, UNKNOWN-JOINT, UNKNOWN-PARAMETER and
+Signals BULLET-ERROR for impossible numbers, UNKNOWN-BODY, UNKNOWN-JOINT, UNKNOWN-PARAMETER and
 IMPOSSIBLE-PARAMETER."
   (check-type fidelity (member :fast :full))
   (let ((scene (if parameters (scene-with-parameters scene parameters) scene))
@@ -79,4 +79,5 @@ as the executive of an implicit top-level; close it afterwards."
 scene's file, and return its values; the projection is closed afterwards.  What BODY performs is
 performed in it, and BODY may call plans: it is in a top-level, unless it makes one.  OPTIONS are
 those of MAKE-PROJECTION."
-  `(call-with-projection (lambda (,projection) ,@body) ,scene (list ,@options)))
+  `(call-with-projection (lambda (,projection) (declare (ignorable ,projection)) ,@body)
+                         ,scene (list ,@options)))
