@@ -115,6 +115,26 @@
     (is (nearly 1.35d0 (geometry:pose-x (projection:observed-pose projection :robot)) 1d-9))
     (is (= 2 (length (base-path projection 1.4 0.2 3))) "straight where nothing is in the way")))
 
+(test no-way-leads-through-a-wall
+  "What is in the room is connected, what is outside is not; a search then sees no place twice."
+  (projection:with-projection (kitchen (kitchen-scene))
+    (flet ((connected-p (x y)
+             (let* ((robot (projection:projection-robot kitchen))
+                    (start (projection::base-place robot))
+                    (goal (list (float x 1d0) (float y 1d0) 0d0))
+                    (footing (projection::projection-footing kitchen)))
+               (and (projection::connected-p
+                     footing start goal
+                     (projection::lattice-bounds footing start goal))
+                    t))))
+      (is (equal '(t t t nil nil)
+                 (list (connected-p 1.5 1.5) (connected-p -1.4 0.2) (connected-p 1.4 0)
+                       (connected-p 3.5 0) (connected-p 5 5)))))
+    (multiple-value-bind (path reason)
+        (projection:plan-base-path kitchen (geometry:make-pose 3.5 0 0))
+      (is (null path))
+      (is (eq :path reason)))))
+
 (test places-that-are-taken-are-refused
   (projection:with-projection (projection (kitchen-scene))
     (projection:settle projection)

@@ -305,6 +305,8 @@ lattice with the directions of START and GOAL only is tried before the whole."
       (let* ((directions (remove-duplicates (list (nearest-direction (third start))
                                                   (nearest-direction (third goal)))))
              (path (or (lattice-path footing start goal bounds 0.1d0 directions)
-                       (lattice-path footing start goal bounds 0.05d0
-                                     (loop for direction below +yaws+ collect direction)))))
+                       (and (connected-p footing start goal bounds)
+                            (lattice-path footing start goal bounds 0.05d0
+                                          (loop for direction below +yaws+
+                                                collect direction))))))
         (and path (shortened-path footing (corners-of path))))))
