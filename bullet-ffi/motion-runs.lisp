@@ -118,6 +118,7 @@ not finite, a vector too short or a body of another world."
   (check-steps fractions 1 steps "fractions")
   (when start (check-positions mechanism start 'run-motion))
   (when goal (check-positions mechanism goal 'run-motion))
+  (check-length through 'run-motion)
   (dolist (positions through)
     (check-positions mechanism positions 'run-motion))
   (let ((world (mechanism-world mechanism)))
