@@ -153,3 +153,22 @@
 
 (test a-tensor-of-zeros-has-principal-axes
   (is (equal '(0d0 0d0 0d0) (bullet:principal-axes 0 0 0 0 0 0))))
+
+(test a-motion-that-is-refused-has-not-begun
+  (let* ((things (things-of-a-world))
+         (world (getf things :world))
+         (before (bullet:state-hash world))
+         (bases (make-array (* 7 2000) :element-type 'double-float :initial-element 0d0)))
+    (loop for i below 2000
+          do (setf (aref bases (+ 6 (* 7 i))) 1d0))
+    (dolist (wrong (list 1d10 sb-ext:double-float-positive-infinity))
+      (setf (aref bases (* 7 1500)) wrong)
+      (signals bullet:bullet-error
+        (bullet:run-motion (getf things :robot) :steps 2000 :bases bases :start (doubles 1))))
+    (setf (aref bases (* 7 1500)) 0d0
+          (aref bases (+ 6 (* 7 1500))) 2d0)
+    (signals bullet:bullet-error
+      (bullet:run-motion (getf things :robot) :steps 2000 :bases bases :start (doubles 1)))
+    (is (= before (bullet:state-hash world)))
+    (is (zerop (bullet:world-time world)))
+    (bullet:close-world world)))
