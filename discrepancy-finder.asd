@@ -399,7 +399,7 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "bullet") (:file "queries") (:file "worlds")
                              (:file "rays") (:file "joints") (:file "grips") (:file "hulls")
                              (:file "contacts") (:file "checkpoints") (:file "mechanisms")
-                             (:file "motion-runs") (:file "motion-clearances")))
+                             (:file "motion-runs") (:file "motion-clearances") (:file "refusals")))
                (:module "projection" :serial t
                 :components ((:file "two-regions") (:file "head") (:file "perception")
                              (:file "urdf-errors") (:file "urdf") (:file "meshes")

@@ -60,7 +60,7 @@ base at the pose BASE, a body of the list WATCHED first comes as near as CONTACT
 of the list OBSTACLES: the part of the way, 0 to 1, and the two bodies.  Return NIL if nowhere.  Two
 bodies that are so near at START already may come 1 mm closer; pairs that ignore their collision do
 not count; a contact that is not deeper than 0.5 mm may be overlooked.  Signals BULLET-ERROR if a
-number is not finite or a body of another world."
+number is not finite, the way of a joint longer than 1000 (m or rad), or a body of another world."
   (check-positions mechanism start 'path-contact)
   (check-positions mechanism goal 'path-contact)
   (let* ((world (mechanism-world mechanism))
@@ -79,6 +79,6 @@ number is not finite or a body of another world."
           (%path-contact pointer (mechanism-id mechanism) base-pointer start-pointer goal-pointer
                          (length watched) watched-pointer (length obstacles) obstacles-pointer
                          distance fraction-pointer ids-pointer)
-        (:bad-number (bad-posture))
+        (:bad-number (format nil "~a, or has to go farther than 1000" (bad-posture)))
         (:nothing (return-from path-contact nil))))
     (multiple-value-call #'values (aref fraction 0) (clearance-bodies mechanism ids))))

@@ -13,7 +13,14 @@ that is not finite, a body of another world.  The world is as it was before the 
 
 (defun fail (operation control &rest arguments)
   "Signal a BULLET-ERROR of OPERATION with the reason that CONTROL and ARGUMENTS format."
-  (error 'bullet-error :operation operation :reason (apply #'format nil control arguments)))
+  ;; What is wrong may be anything, a circular list or one of a million points.
+  (let ((*print-circle* t) (*print-length* 40) (*print-level* 4) (*print-readably* nil))
+    (error 'bullet-error :operation operation :reason (apply #'format nil control arguments))))
+
+(defun check-length (sequence operation)
+  "Signal that OPERATION got SEQUENCE if that is a list without an end."
+  (when (and (listp sequence) (not (ignore-errors (list-length sequence))))
+    (fail operation "~s is no proper list" sequence)))
 
 (defun described (thing)
   "Return the string that THING is, or that it formats if it is a list of a control string and its

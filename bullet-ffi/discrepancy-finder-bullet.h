@@ -4,7 +4,8 @@
  * world: integers from 0, in the order of their making.  A function that makes something returns
  * its id, every other one DFB_OK or what its comment says; a negative result is one of the
  * statuses below, and then nothing was changed and no output was written.  Handles are checked at
- * each entry, ids for bounds and liveness, numbers for being finite (at most 1e9 in magnitude).
+ * each entry, ids for bounds and liveness, numbers for being finite (at most 1e9 in magnitude);
+ * a positive number is at least 1e-30.
  *
  * A pose is x, y, z (m) and a unit quaternion qx, qy, qz, qw.  The state of a body is 13 doubles:
  * its pose, its linear velocity (m/s), its angular velocity (rad/s).  SI units everywhere.
@@ -272,7 +273,8 @@ DFB_API int dfb_mechanism_clearance(dfb_world *world, int mechanism, const doubl
                                     double limit, double *distance, int *bodies);
 /* Find where on the straight way of the joints from start to goal two such bodies first come as
  * near as contact_distance: write the fraction of the way and them, or return DFB_NOTHING.  Two
- * that are so near at the start already may come 1 mm closer. */
+ * that are so near at the start already may come 1 mm closer.  No joint may go farther than 1000 (m
+ * or rad). */
 DFB_API int dfb_path_contact(dfb_world *world, int mechanism, const double *base,
                              const double *start, const double *goal, int watched_count,
                              const int *watched, int obstacle_count, const int *obstacles,

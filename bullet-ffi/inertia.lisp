@@ -80,16 +80,25 @@ count twice."
       (:hull (kept-moments shape (lambda () (hull-moments numbers))))
       (:compound (kept-moments shape (lambda () (compound-moments numbers)))))))
 
+(defun checked-moments (shape operation)
+  "Return the moments of SHAPE, or signal that OPERATION cannot have it."
+  (with-shape (pointer shape '("the body"))
+    (declare (ignore pointer)))
+  (when (eq (first shape) :plane)
+    (fail operation "a plane has no volume"))
+  (shape-moments shape))
+
 (defun shape-volume (shape)
-  "Return the volume (m^3) of the well-formed SHAPE, which is no plane; where parts of a compound
-overlap it counts twice."
-  (aref (shape-moments shape) 0))
+  "Return the volume (m^3) of SHAPE; where parts of a compound overlap it counts twice.  Signals
+BULLET-ERROR if SHAPE is malformed or a plane."
+  (aref (checked-moments shape 'shape-volume) 0))
 
 (defun shape-inertia (shape mass)
-  "Return the list of the moments of inertia (kg m^2) about the axes of its frame of a body with a
-well-formed SHAPE, which is no plane, and MASS (kg), evenly spread.  Products are left out."
-  (let* ((moments (shape-moments shape))
-         (density (/ mass (aref moments 0)))
+  "Return the list of the moments of inertia (kg m^2) about the axes of its frame of a body with
+SHAPE and MASS (kg), evenly spread.  Products are left out.  Signals BULLET-ERROR if SHAPE is
+malformed or a plane, or MASS not positive."
+  (let* ((moments (checked-moments shape 'shape-inertia))
+         (density (/ (number-of "the mass" mass 'shape-inertia :positive) (aref moments 0)))
          (xx (* density (aref moments 4)))
          (yy (* density (aref moments 8)))
          (zz (* density (aref moments 12))))
@@ -157,11 +166,11 @@ axes.  Signals BULLET-ERROR if a number is not finite."
 
 (defun mass-properties (shape mass)
   "Return two values for ADD-BODY: the principal moments of inertia (kg m^2) about its centre of
-mass of a body with a well-formed SHAPE, which is no plane, and MASS (kg), evenly spread, and the
-inertial pose, that of their axes in the link frame."
-  (let* ((moments (shape-moments shape))
+mass of a body with SHAPE and MASS (kg), evenly spread, and the inertial pose, that of their axes in
+the link frame.  Signals BULLET-ERROR if SHAPE is malformed or a plane, or MASS not positive."
+  (let* ((moments (checked-moments shape 'mass-properties))
          (volume (aref moments 0))
-         (density (/ mass volume))
+         (density (/ (number-of "the mass" mass 'mass-properties :positive) volume))
          (centre (loop for i from 1 to 3 collect (/ (aref moments i) volume))))
     (flet ((product (i j)
              (* density (- (aref moments (+ 4 (* 3 i) j))

@@ -14,6 +14,7 @@
 
 (defun joint-indices (mechanism joints)
   "Return the sequence JOINTS of indices as a vector for the shim."
+  (check-length joints 'inverse-kinematics)
   (let ((indices (make-array (length joints) :element-type '(signed-byte 32)))
         (count (length (mechanism-links mechanism))))
     (map-into indices

@@ -141,6 +141,7 @@ index of another joint, a multiplier and an offset; BODY is NIL or a kinematic b
   "Return a new mechanism in WORLD of LINKS, a sequence of LINK-SPECs, parents first.  Its joints
 are at 0; no body is moved.  Signals BULLET-ERROR, which names the link, if the links are no tree, a
 body is not a kinematic one of WORLD, or a number is out of range."
+  (check-length links 'make-mechanism)
   (let* ((links (coerce links 'simple-vector))
          (count (length links))
          (integers (make-array (* +link-integers+ count) :element-type '(signed-byte 32)))

@@ -53,6 +53,9 @@
                 (:bad-number
                  "a position of the start, the goal or in between is not finite")))))))))
 
+(defun bad-motion ()
+  (fail 'run-motion "a base is not a finite pose or a fraction is not finite"))
+
 (defun continue-motion (mechanism steps bases fractions)
   "Do the STEPS of the motion that was begun; return how many were done and the bodies of the
 contact, if any."
@@ -78,8 +81,7 @@ contact, if any."
                                            ids-pointer)))
                                (when (> taken 0) (incf (world-steps world) taken))
                                taken)
-                           (:bad-number
-                            "a base is not a finite pose or a fraction is not finite")))
+                           (:bad-number (bad-motion))))
                 while (= -1 (aref ids 0))))))
     (flet ((body (index)
              (let ((id (aref ids index)))
@@ -87,10 +89,23 @@ contact, if any."
       (values done (body 0) (body 1)))))
 
 (defun check-steps (vector size steps thing)
+  (declare (type fixnum size steps))
   (unless (or (null vector)
               (and (typep vector 'positions) (>= (length vector) (* size steps))))
     (fail 'run-motion "the ~a are no vector of ~d double floats for each of ~d steps"
-          thing size steps)))
+          thing size steps))
+  ;; The shim looks at these numbers, too, but only when the motion has begun.
+  (when vector
+    (loop for i of-type fixnum below (* size steps)
+          unless (in-range-p (aref (the positions vector) i) :finite)
+            do (bad-motion))
+    (when (= size 7)
+      (dotimes (i steps)
+        (unless (<= (abs (- 1 (loop for j from 3 below 7
+                                    sum (expt (aref (the positions vector) (+ (* 7 i) j)) 2)
+                                      of-type double-float)))
+                    1d-6)
+          (bad-motion))))))
 
 (defun run-motion (mechanism &key steps bases fractions start through goal (fidelity :fast)
                                watched obstacles (contact-distance 0))
@@ -118,6 +133,7 @@ not finite, a vector too short or a body of another world."
   (check-steps fractions 1 steps "fractions")
   (when start (check-positions mechanism start 'run-motion))
   (when goal (check-positions mechanism goal 'run-motion))
+  (check-length through 'run-motion)
   (dolist (positions through)
     (check-positions mechanism positions 'run-motion))
   (let ((world (mechanism-world mechanism)))

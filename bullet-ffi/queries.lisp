@@ -35,6 +35,7 @@ and 0.01 rad/s after each of the last 10 steps.  Signals BULLET-ERROR if WORLD i
 
 (defun body-ids (world bodies operation)
   "Return the ids of the list BODIES, which must be of WORLD, as a vector for the shim."
+  (check-length bodies operation)
   (let ((ids (make-array (length bodies) :element-type '(signed-byte 32))))
     (loop for body in bodies
           for i from 0

@@ -38,6 +38,7 @@
 
 (defun point-numbers (points operation)
   "Return a vector of the numbers of POINTS, a list or vector of lists of three numbers each."
+  (check-length points operation)
   (let ((numbers (make-array (* 3 (length points)) :element-type 'double-float))
         (index 0))
     (declare (type fixnum index))

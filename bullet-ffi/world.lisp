@@ -115,7 +115,7 @@ status is :NOTHING."
        (<= (abs number) 1d9)
        (ecase sort
          (:finite t)
-         (:positive (> number 0d0))
+         (:positive (>= number 1d-30))  ; whose square, cube and reciprocal are finite numbers, too
          (:not-negative (>= number 0d0))
          (:fraction (<= 0d0 number 1d0)))))
 
@@ -131,7 +131,7 @@ status is :NOTHING."
         (fail operation "~a is ~s, but must be ~a" (described thing) value
               (ecase sort
                 (:finite "a number of at most 1e9 in magnitude")
-                (:positive "a positive number of at most 1e9")
+                (:positive "a positive number, from 1e-30 to 1e9")
                 (:not-negative "a number from 0 to 1e9")
                 (:fraction "a number from 0 to 1"))))))
 

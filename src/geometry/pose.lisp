@@ -40,10 +40,17 @@ prints as, so that 0.1 typed at a REPL that reads single floats means 0.1d0."
       (documentation 'pose-qw 'function)
       "Return the real part of the unit quaternion of a pose.")
 
+(defun unprintable-p (number)
+  (or (sb-ext:float-nan-p number) (> (abs number) 1d100)))
+
 (defmethod print-object ((pose pose) stream)
   (print-unreadable-object (pose stream :type t)
-    (format stream "x ~,3f y ~,3f z ~,3f yaw ~,3f"
-            (pose-x pose) (pose-y pose) (pose-z pose) (pose-yaw pose))))
+    (let ((numbers (pose-components pose)))
+      ;; A pose that some function refuses is printed in its message; to compute with it may trap.
+      (if (notany #'unprintable-p numbers)
+          (format stream "x ~,3f y ~,3f z ~,3f yaw ~,3f"
+                  (pose-x pose) (pose-y pose) (pose-z pose) (pose-yaw pose))
+          (format stream "~{~s~^ ~}" numbers)))))
 
 (defmethod make-load-form ((pose pose) &optional environment)
   (make-load-form-saving-slots pose :environment environment))

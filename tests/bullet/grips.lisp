@@ -124,8 +124,8 @@ inertia on the arm ABOVE."
           (item (add-cube world :item 0.2d0 1)))
       (refuses "attach failed: the axis of a grip must have length 1."
                (bullet:attach palm item :capacity 10 :axis '(0 1 1)))
-      (refuses "attach failed: the capacity of a grip is 0, but must be a positive number of at ~
-most 1e9." (bullet:attach palm item :capacity 0))
+      (refuses "attach failed: the capacity of a grip is 0, but must be a positive number, ~
+from 1e-30 to 1e9." (bullet:attach palm item :capacity 0))
       (refuses "attach failed: the axis of a grip is (0 1), but must be a list of three numbers."
                (bullet:attach palm item :capacity 10 :axis '(0 1)))
       (loop for options in (list (list :capacity (nan)) '(:capacity -1)

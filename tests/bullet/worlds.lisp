@@ -72,8 +72,8 @@ that begins with :box, :sphere, :cylinder, :hull, :plane or :compound." (add :co
             do (signals bullet:bullet-error
                  (apply #'bullet:add-body world :bad '(:sphere 1) (geometry:make-pose 0 0 0)
                         (append options '(:kind :dynamic)))))
-      (refuses "add-body failed: the mass of body BAD is 0, but must be a positive number of at ~
-most 1e9."
+      (refuses "add-body failed: the mass of body BAD is 0, but must be a positive number, ~
+from 1e-30 to 1e9."
         (bullet:add-body world :bad '(:sphere 1) (geometry:make-pose 0 0 0)
                          :kind :dynamic :mass 0))
       (refuses "add-body failed: the world has a body CUP already." (add-cube world :cup 0 1))
