@@ -289,7 +289,8 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "profiles") (:file "runner") (:file "head")
                              (:file "torso")))
                (:module "navigation" :serial t
-                :components ((:file "terrain") (:file "footing") (:file "connection") (:file "queues")
+                :components ((:file "terrain") (:file "footing") (:file "connection")
+                             (:file "queues")
                              (:file "base-paths") (:file "surroundings") (:file "base-motion")
                              (:file "going")))
                (:module "perception" :serial t
