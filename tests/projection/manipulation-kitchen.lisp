@@ -119,6 +119,16 @@ second drawer and goes along."
                (is (nearly spoon along 0.01) "the spoon went along by ~a m" along)
                (is (nearly 0 closed 0.005) "~a is open by ~a m" drawer closed)))))
 
+(test a-hand-gets-away-from-the-handle
+  "Where the arm is folded so that no way leads from the handle to where it is parked, the hand goes
+back first."
+  (is (eq :parked
+          (call-in-kitchen (lambda (projection)
+                             (perform-in projection (opening-drawer :drawer-1 '(:arm :right)))
+                             (perform-in projection (parking))
+                             :parked)
+                           (standing-at -1.1 -0.4 pi)))))
+
 (test the-spoon-is-taken-out-of-the-drawer
   (multiple-value-bind (held height)
       (call-in-kitchen (lambda (projection)

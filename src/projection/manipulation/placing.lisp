@@ -63,7 +63,8 @@ possible."
   (let* ((tool (tool-pose projection arm))
          (start (joint-positions (projection-robot projection)))
          (way (loop for end in (list (advanced tool -0.12d0) (advanced tool -0.08d0)
-                                     (moved tool '(0d0 0d0 0.1d0)) (advanced tool -0.04d0))
+                                     (moved tool '(0d0 0d0 0.1d0)) (advanced tool -0.04d0)
+                                     (moved tool '(0d0 0.1d0 0d0)) (moved tool '(0d0 -0.1d0 0d0)))
                     for way = (straight-way projection arm start tool end)
                     when (and way (free-p projection arm (first (last way)))) return way)))
     ;; Touching something ends it: what was to be done is done.
@@ -161,12 +162,19 @@ as now."
 
 (defun park-arm (projection arm)
   "Take ARM out of the way."
-  (let* ((goal (or (and (held-item projection (arm-name arm))
-                        (carrying-positions projection arm))
-                   (parked-positions-of projection arm)))
-         (start (joint-positions (projection-robot projection)))
-         (way (plan-way projection arm start goal)))
-    (follow projection arm (or way (list goal)))
+  (let ((goal (or (and (held-item projection (arm-name arm))
+                       (carrying-positions projection arm))
+                  (parked-positions-of projection arm))))
+    (flet ((way ()
+             (plan-way projection arm (joint-positions (projection-robot projection)) goal)))
+      (follow projection arm
+              (or (way)
+                  ;; What an empty hand is close to may leave it no way at all.
+                  (and (null (held-item projection (arm-name arm)))
+                       (loop repeat 3
+                             do (retreat projection arm)
+                               thereis (way)))
+                  (list goal))))
     (setf (getf (projection-memory projection) arm) (joints-of-arm projection arm))))
 
 (defun park-arms (projection designator)
