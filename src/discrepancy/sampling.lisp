@@ -186,18 +186,19 @@ body that it is nowhere or in two places, or that an item is held."
 
 (defun inside-final-regions-p (parameters intervals)
   "Return true if it is certain that the INTERVALS (LOWER . UPPER) of PARAMETERS lie in the regions
-of their bodies that are no boxes."
-  (let ((groups (remove-duplicates (loop for parameter in parameters
-                                         when (parameter-region parameter)
-                                           collect (cons (parameter-body parameter)
-                                                         (parameter-region parameter)))
-                                   :test #'equal)))
-    (loop for (body . region) in groups
-          always (box-inside-p (loop for parameter in parameters
-                                     for (low . high) in intervals
-                                     when (eq (parameter-body parameter) body)
-                                       collect (list (parameter-axis parameter) low high))
-                               (region-description region)))))
+of their bodies that are no boxes; also if a rule predicts nothing, and INTERVALS is empty."
+  (or (null intervals)
+      (loop for (body . region) in (remove-duplicates
+                                    (loop for parameter in parameters
+                                          when (parameter-region parameter)
+                                            collect (cons (parameter-body parameter)
+                                                          (parameter-region parameter)))
+                                    :test #'equal)
+            always (box-inside-p (loop for parameter in parameters
+                                       for (low . high) in intervals
+                                       when (eq (parameter-body parameter) body)
+                                         collect (list (parameter-axis parameter) low high))
+                                 (region-description region)))))
 
 ;;; Drawing
 

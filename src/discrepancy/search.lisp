@@ -164,7 +164,11 @@ satisfied."
   (let ((verdict (evidence-verdict (trace-search-rule trace-search)
                                    (trace-search-evidence trace-search))))
     (setf (trace-search-verdict trace-search) verdict)
-    (when (eq (verdict-status verdict) :confident)
+    (when (and (eq (verdict-status verdict) :confident)
+               (inside-final-regions-p (final-parameters
+                                        (search-domain (trace-search-search trace-search))
+                                        (trace-search-trace trace-search))
+                                       (verdict-intervals verdict)))
       (conclude trace-search :certified (verdict-reason verdict)))))
 
 (defun try-sample (trace-search index)

@@ -59,12 +59,6 @@ NIL if the rank is too small to tell."
   (loop for column below (array-dimension design 1)
         unless (member column constant) collect column))
 
-(defun merged-column-count (design)
-  "Return the number of columns of DESIGN after constant columns were merged."
-  (let ((constant (constant-columns design)))
-    (+ (length (kept-columns design constant))
-       (if (plusp (merged-norm design constant)) 1 0))))
-
 (defun augment (design response kept norm)
   "Return the matrix of the columns of DESIGN that KEPT lists, of a column full of NORM unless it is
 zero, and of RESPONSE."

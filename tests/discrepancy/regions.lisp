@@ -143,3 +143,13 @@ half of its area; the same seed draws the same ones."
                                                                                     lift)))
                           (discrepancy:observed-fluents
                            (discrepancy:discrete-state domain projection))))))))
+
+(test predictions-are-to-lie-in-regions-that-are-no-boxes
+  (let ((parameters (loop for axis in '(:x :y)
+                          collect (discrepancy::make-parameter
+                                   :box axis 0d0 2d0 nil
+                                   (described-region '(polygon (0 0) (2 0) (0 2)))))))
+    (is-true (discrepancy::inside-final-regions-p parameters '((0.1d0 . 0.9d0) (0.1d0 . 0.9d0))))
+    (is-false (discrepancy::inside-final-regions-p parameters '((0.1d0 . 1.5d0) (0.1d0 . 1.5d0)))
+              "in the box around the triangle, but not in it")
+    (is-true (discrepancy::inside-final-regions-p parameters '()))))

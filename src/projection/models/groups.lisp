@@ -100,21 +100,3 @@ the movable joints below these, with the pose of their parent link."
                        (visit (urdf-joint-child joint) joint group)))))))
       (visit (urdf-model-root model) nil nil))
     (nreverse groups)))
-
-(defun group-of (link-name groups)
-  "Return the one of GROUPS that has the link LINK-NAME."
-  (find-if (lambda (group)
-             (find link-name (rigid-group-members group)
-                   :key (lambda (member) (urdf-link-name (car member))) :test #'equal))
-           groups))
-
-(defun adjacent-p (group other)
-  "Return true if GROUP and OTHER are one or connected by a joint: their shapes overlap by design."
-  (or (eq group other)
-      (eq (rigid-group-parent group) other)
-      (eq (rigid-group-parent other) group)))
-
-(defun adjacent-links-p (groups link-name other-name)
-  "Return true if the links LINK-NAME and OTHER-NAME are in the same or in adjacent ones of GROUPS,
-the RIGID-GROUPS of a model, so that they are not checked for collision with each other."
-  (adjacent-p (group-of link-name groups) (group-of other-name groups)))

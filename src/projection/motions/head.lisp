@@ -130,17 +130,3 @@ is what the plan named.  Signals PTU-GOAL-NOT-REACHED, after the move, if it is 
                              (urdf-joint-name (find-joint robot :pan)) (joint-position robot :pan)
                              (urdf-joint-name (find-joint robot :tilt))
                              (joint-position robot :tilt))))))))
-
-(defun look-forward (projection)
-  "Move both joints of the head of PROJECTION's robot to 0.  Signals PTU-GOAL-NOT-REACHED if a limit
-forbids it."
-  (move-head projection 0d0 0d0)
-  (dolist (role '(:pan :tilt))
-    (let ((position (joint-position (projection-robot projection) role)))
-      (when (> (abs position) *pointing-tolerance*)
-        (plan:fail 'plan:ptu-goal-not-reached
-                   :target :forward
-                   :description (format nil "~a stops at ~,3f rad"
-                                        (urdf-joint-name
-                                         (find-joint (projection-robot projection) role))
-                                        position))))))
