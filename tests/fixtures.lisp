@@ -42,3 +42,22 @@ of the strings PARTS."
   (with-open-file (stream "/proc/self/statm")
     (read stream)
     (/ (* 4096 (read stream)) 1d6)))
+
+(defun last-line-of-another-process (system &rest forms)
+  "Return the last line that FORMS print, evaluated one after the other in a new process that has
+loaded SYSTEM (a string) from this source tree."
+  (let ((forms (list* '(require :asdf)
+                      `(asdf:load-asd ,(namestring (asdf:system-source-file "discrepancy-finder")))
+                      `(asdf:load-system ,system)
+                      forms)))
+    (uiop:run-program
+     (list* (namestring sb-ext:*runtime-pathname*)
+            "--noinform" "--no-sysinit" "--no-userinit" "--non-interactive"
+            (loop for form in forms
+                  collect "--eval"
+                  collect (with-standard-io-syntax
+                            (let ((*package* (find-package '#:keyword)) (*print-readably* nil))
+                              (prin1-to-string form)))))
+     :output (lambda (stream)
+               (loop for line = (read-line stream nil)
+                     while line for last = line finally (return last))))))

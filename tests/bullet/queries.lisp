@@ -26,23 +26,11 @@
   "A function that can be sent to another process.")
 
 (defun hash-in-another-process ()
-  (let ((forms `((require :asdf)
-                 (asdf:load-asd ,(namestring (asdf:system-source-file "discrepancy-finder")))
-                 (asdf:load-system "discrepancy-finder/bullet")
-                 (defpackage #:discrepancy-finder.tests (:use #:cl))
-                 (format t "~%~d" (funcall ,*tumble* nil)))))
-    (parse-integer
-     (uiop:run-program
-      (list* (namestring sb-ext:*runtime-pathname*)
-             "--noinform" "--no-sysinit" "--no-userinit" "--non-interactive"
-             (loop for form in forms
-                   collect "--eval"
-                   collect (with-standard-io-syntax
-                             (let ((*package* (find-package '#:keyword)) (*print-readably* nil))
-                               (prin1-to-string form)))))
-      :output (lambda (stream)
-                (loop for line = (read-line stream nil)
-                      while line for last = line finally (return last)))))))
+  (parse-integer
+   (last-line-of-another-process
+    "discrepancy-finder/bullet"
+    '(defpackage #:discrepancy-finder.tests (:use #:cl))
+    `(format t "~%~d" (funcall ,*tumble* nil)))))
 
 (test equal-calls-give-equal-bits
   (let* ((tumble (compile nil *tumble*))

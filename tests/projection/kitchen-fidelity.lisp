@@ -54,23 +54,11 @@ where each item is, and what of it stands; and the hash of the final state."
       (loop for index in indices collect (cdr (assoc index hashes))))))
 
 (defun hashes-in-another-process (indices)
-  (let ((forms `((require :asdf)
-                 (asdf:load-asd ,(namestring (asdf:system-source-file "discrepancy-finder")))
-                 (asdf:load-system "discrepancy-finder/tests")
-                 (let ((*print-pretty* nil))
-                   (print (uiop:symbol-call "DISCREPANCY-FINDER.TESTS" "RUN-HASHES" ',indices))))))
-    (read-from-string
-     (uiop:run-program
-      (list* (namestring sb-ext:*runtime-pathname*)
-             "--noinform" "--no-sysinit" "--no-userinit" "--non-interactive"
-             (loop for form in forms
-                   collect "--eval"
-                   collect (with-standard-io-syntax
-                             (let ((*package* (find-package '#:keyword)) (*print-readably* nil))
-                               (prin1-to-string form)))))
-      :output (lambda (stream)
-                (loop for line = (read-line stream nil)
-                      while line for last = line finally (return last)))))))
+  (read-from-string
+   (last-line-of-another-process
+    "discrepancy-finder/tests"
+    `(let ((*print-pretty* nil))
+       (print (uiop:symbol-call "DISCREPANCY-FINDER.TESTS" "RUN-HASHES" ',indices))))))
 
 (defun run-hashes (indices)
   (kitchen-plans)
