@@ -318,7 +318,7 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "conditions") (:file "normal") (:file "beta")
                (:file "student") (:file "least-squares") (:file "regression") (:file "rules")
                (:file "evidence") (:file "paper-rule") (:file "zero-failure")
-               (:file "prediction")))
+               (:file "prediction") (:file "worst-corners")))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
@@ -330,9 +330,12 @@ The environment variable CXX names another compiler than g++."))
                (:file "random") (:file "samplers") (:file "regions") (:file "observers")
                (:file "abstraction") (:file "parsing") (:file "parsing-observers")
                (:file "define-abstraction")
-               (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
-               (:file "results") (:file "search") (:file "report") (:file "scene-runs")
-               (:file "replay") (:file "replay-file")))
+               (:file "catalog") (:file "sampling") (:file "meter") (:file "execution")
+               (:file "judgement")
+               (:file "results") (:file "search-results") (:file "search-state")
+               (:file "targets") (:file "trace-search") (:file "finds") (:file "report")
+               (:file "scene-runs") (:file "replay") (:file "replay-file")
+               (:file "store") (:file "journal") (:file "search")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."
