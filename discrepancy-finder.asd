@@ -334,7 +334,9 @@ The environment variable CXX names another compiler than g++."))
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "comparisons")
                (:file "results") (:file "search") (:file "report") (:file "scene-runs")
-               (:file "replay") (:file "replay-file")))
+               (:file "replay") (:file "replay-file")
+               (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
+               (:file "explain-text")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."

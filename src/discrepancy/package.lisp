@@ -36,6 +36,11 @@ search, replay.")
    ;; comparisons, step by step
    #:step-comparisons #:step-comparison #:step-comparison-number #:step-comparison-step
    #:step-comparison-verdict #:step-comparison-theory #:step-comparison-fluents
+   ;; explanations
+   #:explain-discrepancy #:explanation #:explanation-text #:explanation-json
+   #:explanation-step #:explanation-grounds #:explanation-influences #:explanation-edits
+   #:explanation-probes
+   #:influence #:influence-parameters #:influence-failing #:influence-agreeing
    ;; search
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-discrepancy
    #:result-discrepancies #:result-traces #:result-simulations #:result-iterations #:result-seed

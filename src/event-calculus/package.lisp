@@ -45,7 +45,7 @@ them and why, and what they say of a state after known events.")
    #:possible-p #:consistent-p #:entailed-p #:consequences #:abduce
    ;; why
    #:why #:why-impossible #:why-inconsistent #:explanation #:explanation-core
-   #:explanation-sentences #:explanation-axioms
+   #:explanation-sentences #:explanation-axioms #:explanation-persistent
    ;; check
    #:check-theory #:finding #:finding-severity #:finding-kind #:finding-subject #:finding-text
    #:finding-position

@@ -24,15 +24,16 @@ inertial as a rule."
                always (or (null released) (eq release :always))))))
 
 (defun formula-form (ground formula time)
-  "Return the ground state FORMULA of GROUND as a formula about the timepoint TIME, or NIL if it
-speaks of more than fluents and timeless atoms."
+  "Return the ground state FORMULA of GROUND as a formula about the timepoint TIME, or as a state
+formula if that is NIL; or NIL if it speaks of more than fluents and timeless atoms."
   (labels ((form (formula)
              (cond ((eq formula t) '(:and))
                    ((null formula) '(:or))
                    ((member (first formula) '(:and :or :not :iff))
                     (cons (first formula) (mapcar #'form (rest formula))))
                    ((eq (first formula) :fluent)
-                    (list :holds-at (svref (ground-theory-fluents ground) (second formula)) time))
+                    (let ((atom (svref (ground-theory-fluents ground) (second formula))))
+                      (if time (list :holds-at atom time) atom)))
                    ((eq (first formula) :static)
                     (aref (atom-table-atoms (ground-theory-statics ground)) (second formula)))
                    (t (return-from formula-form nil)))))
