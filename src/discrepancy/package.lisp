@@ -32,6 +32,15 @@ search, replay.")
    #:run-in-scene #:scene-run #:scene-run-ending #:scene-run-hash #:scene-run-text
    #:judge-run #:judgement #:judgement-verdict #:judgement-divergence
    #:divergence #:divergence-step #:divergence-fluents #:divergence-kind
+   #:judgement-comparison
+   ;; comparisons, step by step
+   #:step-comparisons #:step-comparison #:step-comparison-number #:step-comparison-step
+   #:step-comparison-verdict #:step-comparison-theory #:step-comparison-fluents
+   ;; explanations
+   #:explain-discrepancy #:explanation #:explanation-text #:explanation-json
+   #:explanation-step #:explanation-grounds #:explanation-influences #:explanation-edits
+   #:explanation-probes
+   #:influence #:influence-parameters #:influence-failing #:influence-agreeing
    ;; search
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-discrepancy
    #:result-discrepancies #:result-traces #:result-simulations #:result-iterations #:result-seed
