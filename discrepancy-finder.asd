@@ -330,9 +330,12 @@ The environment variable CXX names another compiler than g++."))
                (:file "random") (:file "samplers") (:file "regions") (:file "observers")
                (:file "abstraction") (:file "parsing") (:file "parsing-observers")
                (:file "extending") (:file "define-abstraction")
-               (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
+               (:file "catalog") (:file "sampling") (:file "actions") (:file "execution")
+               (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "scene-runs")
-               (:file "replay") (:file "replay-file")))
+               (:file "replay") (:file "replay-file")
+               (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
+               (:file "boundary") (:file "shrink")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."
