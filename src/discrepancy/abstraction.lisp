@@ -19,7 +19,7 @@
    (extended-files :initarg :extended-files :initform '() :reader domain-extended-files
                    :documentation "The files of the domains that it extends.")
    (clauses :initarg :clauses :initform '() :reader domain-clauses
-            :documentation "The clauses of its regions and observers, for those that extend it."))
+            :documentation "The clauses of regions and observers, for domains that extend it."))
   (:documentation "A theory, a scene, the abstraction between them, and action bindings."))
 
 (defmethod symbolic:region-of-pose ((domain domain) pose &optional sort)

@@ -13,7 +13,8 @@
           ((and (stringp other) (null (cddr clause)))
            (load-domain (relative-file other file)))
           ((and other (symbolp other) (null (cddr clause))) (ensure-domain other))
-          (t (abstraction-problem name clause "the name of a domain or of its file was expected")))))
+          (t (abstraction-problem name clause
+                                  "the name of a domain or of its file was expected")))))
 
 (defun scene-of-items (name clause scene)
   "Return SCENE with the items only that CLAUSE, (:items name*) or NIL, names."
