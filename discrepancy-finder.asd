@@ -331,12 +331,14 @@ The environment variable CXX names another compiler than g++."))
                (:file "random") (:file "samplers") (:file "regions") (:file "observers")
                (:file "abstraction") (:file "parsing") (:file "parsing-observers")
                (:file "extending") (:file "define-abstraction")
-               (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
-               (:file "comparisons")
+               (:file "catalog") (:file "sampling") (:file "actions") (:file "execution")
+               (:file "judgement") (:file "comparisons")
                (:file "results") (:file "search") (:file "report") (:file "scene-runs")
                (:file "replay") (:file "replay-file")
                (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
-               (:file "explain-text")))
+               (:file "explain-text")
+               (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
+               (:file "boundary") (:file "shrink")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."

@@ -8,6 +8,7 @@ search, replay.")
                     (#:symbolic #:discrepancy-finder.symbolic-execution)
                     (#:projection #:discrepancy-finder.projection)
                     (#:source #:discrepancy-finder.source)
+                    (#:desig #:discrepancy-finder.designators)
                     (#:json #:discrepancy-finder.json)
                     (#:foreign #:discrepancy-finder.foreign))
   (:import-from #:discrepancy-finder.symbolic-execution #:next-trace)
@@ -55,6 +56,12 @@ search, replay.")
    ;; replay
    #:save-discrepancy #:replay #:replay-result #:replay-status #:replay-verdict
    #:replay-discrepancy #:replay-text
+   ;; shrinking
+   #:shrink-discrepancy #:shrinking #:shrinking-discrepancy #:shrinking-original
+   #:shrinking-boundary #:shrinking-runs #:shrinking-seconds #:shrinking-exhausted
+   #:shrinking-text #:shrinking-json #:boundary #:boundary-parameter #:boundary-failing
+   #:boundary-passing #:boundary-text #:run-case
+   #:recorded-action #:recorded-action-text #:discrepancy-actions #:discrepancy-left-out
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy
