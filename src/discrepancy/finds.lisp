@@ -13,7 +13,6 @@
                     :constraint (search-constraint search)
                     :parameters (search-parameters search)
                     :execution (search-execution search) :compare (search-compare search)
-                    :comparison (search-comparison search)
                     :seed (search-seed search) :trace trace :sample sample :run run
                     :judgement judgement :origin origin))
 

@@ -27,10 +27,10 @@ are those of the observed fluents, in their order."
 (defun state-from-bits (bits atoms)
   (loop for bit across bits for atom in atoms collect (cons atom (char= bit #\1))))
 
-(defun condition-text (condition)
+(defun formula-as-text (condition)
   (with-standard-io-syntax (prin1-to-string condition)))
 
-(defun condition-from-text (text)
+(defun formula-from-text (text)
   "Return the ground formula in TEXT; reading it evaluates nothing."
   (with-standard-io-syntax
     (let ((*read-eval* nil))
@@ -41,14 +41,14 @@ are those of the observed fluents, in their order."
                "event" (if (symbolic:outcome-event outcome)
                            (ec:atom-text (symbolic:outcome-event outcome))
                            :null)
-               "condition" (condition-text (symbolic:outcome-condition outcome))))
+               "condition" (formula-as-text (symbolic:outcome-condition outcome))))
 
 (defun candidate-from-json (object ground)
   (let ((event (json:get-key object "event")))
     (symbolic:make-outcome
      :name (symbolic:argument-from-json (json:get-key object "name"))
      :event (and (stringp event) (ec:text-atom event (ec:ground-theory-events ground)))
-     :condition (condition-from-text (json:get-key object "condition")))))
+     :condition (formula-from-text (json:get-key object "condition")))))
 
 (defun run-step-json (step)
   (json:object "designator" (princ-to-string (run-step-designator step))
@@ -116,10 +116,11 @@ are those of the observed fluents, in their order."
                            (truth (aref entry 1)) (truth (aref entry 2))))
                    (json:get-key object "fluents")))))
 
-(defun judgement-from-json (object ground)
+(defun judgement-from-json (object ground comparison)
   (and (consp object)
        (let ((divergence (json:get-key object "divergence")))
          (make-judgement
+          :comparison comparison
           :verdict (find (json:get-key object "verdict") '(:discrepancy :left-trace :consistent)
                          :test #'string-equal)
           :divergence (and (consp divergence) (divergence-from-json divergence ground))))))
@@ -134,8 +135,8 @@ are those of the observed fluents, in their order."
   (format nil "~a ~(~a~) ~d" (hash-text content) origin index))
 
 (defun journaled-run (trace-search sample origin)
-  "Return the run of SAMPLE and the judgement on it (NIL for none) from the journal of the search, or
-NIL if it is not there.  Counts as a simulation."
+  "Return the run of SAMPLE and the judgement on it (NIL for none) from the journal of the search,
+or NIL if it is not there.  Counts as a simulation."
   (let* ((search (trace-search-search trace-search))
          (journal (search-journal search))
          (line (and journal
@@ -149,7 +150,8 @@ NIL if it is not there.  Counts as a simulation."
                                  (journal-atoms journal))))
         (when (eq (run-validity run) :valid)
           (count-simulation))
-        (values run (judgement-from-json (json:get-key object "judgement") ground))))))
+        (values run (judgement-from-json (json:get-key object "judgement") ground
+                                         (search-comparison search)))))))
 
 (defun write-line-whole (stream object)
   (write-line (json:encode object) stream)
@@ -167,7 +169,7 @@ NIL if it is not there.  Counts as a simulation."
 
 ;;; Files
 
-(defun header (search arguments max-paths)
+(defun header (search arguments paths)
   "Return the JSON object that tells which search SEARCH is, budgets apart."
   (flet ((text (value) (with-standard-io-syntax (prin1-to-string value))))
     (json:object
@@ -179,7 +181,7 @@ NIL if it is not there.  Counts as a simulation."
      "constraint" (text (search-constraint search))
      "parameters" (text (search-parameters search))
      "arguments" (text arguments)
-     "paths" (text max-paths)
+     "paths" (text paths)
      "rule" (text (list (search-rule-name search)
                         (confidence-rule-confidence (search-rule search))
                         (and (typep (search-rule search) 'zero-failure-rule)
@@ -229,10 +231,10 @@ line is cut off from the file."
           (error 'journal-error :file file :reason "a line of it is no run"))
         (setf (gethash (subseq line (1+ open) close) table) line)))))
 
-(defun call-with-journal (search file arguments max-paths function)
+(defun call-with-journal (search file arguments paths function)
   (if (null file)
       (funcall function)
-      (let* ((header (header search arguments max-paths))
+      (let* ((header (header search arguments paths))
              (name (source:native-name (source:native-path file)))
              (lines (make-hash-table :test #'equal))
              (path (source:native-path file))
@@ -256,7 +258,7 @@ line is cut off from the file."
                 (error 'journal-error :file name :reason "it cannot be written")
                 (error condition)))))))
 
-(defmacro with-journal ((search file arguments max-paths) &body body)
+(defmacro with-journal ((search file arguments paths) &body body)
   "Evaluate BODY, in which SEARCH has the journal in FILE, unless that is NIL.  Signals
 JOURNAL-ERROR."
-  `(call-with-journal ,search ,file ,arguments ,max-paths (lambda () ,@body)))
+  `(call-with-journal ,search ,file ,arguments ,paths (lambda () ,@body)))

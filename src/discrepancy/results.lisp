@@ -14,10 +14,11 @@ list of (run . judgement), what the search had seen of the trace until then."
   (parameters '() :type list :read-only t)
   (execution :trace :type keyword :read-only t)
   (compare :final :type keyword :read-only t)
-  (comparison :consistent :type keyword :read-only t)
   (seed 0 :type (unsigned-byte 64) :read-only t)
   (trace nil :read-only t)
   (sample nil :read-only t)
+  (actions '() :type list :read-only t)
+  (left-out '() :type list :read-only t)
   (run nil)
   (judgement nil :read-only t)
   (confirmed-p nil :type boolean)
@@ -38,6 +39,12 @@ list of (run . judgement), what the search had seen of the trace until then."
       "Return the execution trace."
       (documentation 'discrepancy-sample 'function)
       "Return the sample from which the simulation does what the theory does not allow."
+      (documentation 'discrepancy-actions 'function)
+      "Return the list of the RECORDED-ACTIONs that a run performs in the place of the plan, or NIL:
+the plan is run.  A discrepancy that was shrunk has some."
+      (documentation 'discrepancy-left-out 'function)
+      "Return the names (keywords) of the scene's items that the world of a shrunk discrepancy does
+not have."
       (documentation 'discrepancy-run 'function)
       "Return the run of that sample."
       (documentation 'discrepancy-judgement 'function)
@@ -52,8 +59,6 @@ list of (run . judgement), what the search had seen of the trace until then."
       "Return :TRACE if runs stop where they leave the trace, or :PLAN."
       (documentation 'discrepancy-compare 'function)
       "Return :FINAL if final states are compared, or :EVERY-STEP."
-      (documentation 'discrepancy-comparison 'function)
-      "Return :CONSISTENT if the theory is asked whether it allows a state, or :EXACT."
       (documentation 'discrepancy-origin 'function)
       "Return how a discrepancy was found: by a :BLIND sample, a :TARGETED one, or :REUSED from a
 store."
@@ -83,6 +88,10 @@ the order in which they were made, the discrepancy's own last; at most 1000."
   (print-unreadable-object (discrepancy stream :type t)
     (format stream "~(~a~): ~a" (plan:plan-name (discrepancy-plan discrepancy))
             (discrepancy-summary discrepancy))))
+
+(defun discrepancy-comparison (discrepancy)
+  "Return :CONSISTENT if the theory was asked whether it allows a state, or :EXACT."
+  (judgement-comparison (discrepancy-judgement discrepancy)))
 
 ;;; Kinds
 

@@ -32,6 +32,8 @@
    (context :initarg :context :reader search-context)
    (phases :initform (make-phases) :reader search-phases)
    (meter :initform (make-meter) :reader search-meter)
+   (iteration :initform 0 :accessor search-iteration
+              :documentation "The number of the trace that is being sampled, from 1.")
    (started :initform (foreign:monotonic-seconds) :reader search-started)
    (kinds :initform (make-hash-table :test #'equal) :reader search-kinds
           :documentation "From the kinds that were found to the first discrepancy of each.")
@@ -98,44 +100,11 @@ found so far.  Return NIL if there is no search."
 
 ;;; Progress
 
-(defstruct (progress (:copier nil))
-  "How far a search has come."
-  (phase nil :type keyword :read-only t)
-  (iteration 0 :type (integer 0) :read-only t)
-  (simulations 0 :type (integer 0) :read-only t)
-  (rejected 0 :type (integer 0) :read-only t)
-  (discrepancies 0 :type (integer 0) :read-only t)
-  (seconds 0d0 :type double-float :read-only t)
-  (verdict nil :read-only t))
-
-(setf (documentation 'progress-phase 'function)
-      "Return the name of the phase in which a search is."
-      (documentation 'progress-iteration 'function)
-      "Return the number of the trace, from 1, that is being sampled; 0 before the first."
-      (documentation 'progress-simulations 'function)
-      "Return the number of simulations so far."
-      (documentation 'progress-rejected 'function)
-      "Return the number of rejected samples of the trace that is being sampled."
-      (documentation 'progress-discrepancies 'function)
-      "Return the number of discrepancies so far, one for each kind."
-      (documentation 'progress-seconds 'function)
-      "Return the seconds since a search began."
-      (documentation 'progress-verdict 'function)
-      "Return the last verdict of the confidence rule, or NIL.")
-
-(defun progress-text (progress)
-  "Return a line, without its end, that tells PROGRESS."
-  (format nil "~(~a~), trace ~d, ~d simulation~:p, ~d discrepanc~@:p, ~,1f s~@[: ~a~]"
-          (progress-phase progress) (progress-iteration progress)
-          (progress-simulations progress) (progress-discrepancies progress)
-          (progress-seconds progress)
-          (and (progress-verdict progress) (verdict-reason (progress-verdict progress)))))
-
-(defun report-search (search phase &key (iteration 0) (rejected 0) verdict)
+(defun report-search (search phase &key verdict (rejected 0))
   "Tell the user's function how far SEARCH is, if there is one."
   (when (search-progress search)
     (funcall (search-progress search)
-             (make-progress :phase phase :iteration iteration :rejected rejected :verdict verdict
-                            :simulations (search-simulations search)
-                            :discrepancies (hash-table-count (search-kinds search))
-                            :seconds (search-seconds search)))))
+             :phase phase :trace (search-iteration search) :rejected rejected :verdict verdict
+             :simulations (search-simulations search)
+             :discrepancies (hash-table-count (search-kinds search))
+             :seconds (search-seconds search))))

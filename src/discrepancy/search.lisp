@@ -19,7 +19,8 @@
 (defun judge (search run trace)
   "Return the judgement on RUN, made for TRACE."
   (judge-run (search-domain search) run trace :context (search-context search)
-                                              :compare (search-compare search)))
+                                              :compare (search-compare search)
+                                              :comparison (search-comparison search)))
 
 (defun run-and-judge (trace-search sample origin)
   "Return the run of SAMPLE and, if it is valid, the judgement on it; NIL if the run failed and the
@@ -73,8 +74,6 @@ sample was skipped.  What is in the journal of the search is not run again."
                   (t (note-rejection trace-search run)))
           (report-search (trace-search-search trace-search)
                          (if (eq origin :blind) :generate :target)
-                         :iteration (1+ (length (search-results
-                                                 (trace-search-search trace-search))))
                          :rejected (trace-search-rejected trace-search)
                          :verdict (trace-search-verdict trace-search)))))))
 
@@ -124,14 +123,15 @@ SEARCH-FUNCTION returns where it has to end."
   (lambda (exploration)
     (declare (ignore exploration))
     (let ((search (funcall search-function)))
-      (report-search search :explore :iteration (length (search-results search)))
+      (report-search search :explore)
       (when (end-reason search)
         (stop-search)))))
 
 (defun search-traces (search exploration)
   (loop for trace = (next-trace-of search exploration)
         while trace
-        do (multiple-value-bind (result stop) (search-trace search trace)
+        do (incf (search-iteration search))
+           (multiple-value-bind (result stop) (search-trace search trace)
              (push result (search-results search))
              (when stop (return)))))
 
@@ -153,6 +153,11 @@ SEARCH-FUNCTION returns where it has to end."
                  :stopped (search-stopped search)))
 
 ;;; Entry point
+
+(defun constraint-name (exploration)
+  "Return the name of the state constraint of EXPLORATION."
+  (let ((constraint (symbolic:exploration-constraint exploration)))
+    (if (symbolp constraint) constraint (ec:state-constraint-name constraint))))
 
 (defun check-argument (name value test expected)
   (unless test
@@ -190,7 +195,7 @@ SEARCH-FUNCTION returns where it has to end."
                                   keep-going store resume shrink explain progress
                                   parameters arguments (execution :trace)
                                   (compare :final) (comparison :consistent)
-                                  (on-discrepancy :return) (max-paths 10000))
+                                  (on-discrepancy :return) (max-paths 10000) (traces :last))
   "Search for a discrepancy between the theory and the scene of DOMAIN along PLAN (a symbol) and
 return a SEARCH-RESULT.
   DOMAIN          a domain or its name
@@ -212,7 +217,10 @@ return a SEARCH-RESULT.
   RESUME          NIL, or the file of a journal, made if need be: what a search with the same
                   arguments but for budgets has run is taken from there
   SHRINK, EXPLAIN true: make a discrepancy smaller, and explain it
-  PROGRESS        NIL, or a function that is called with a PROGRESS after each simulation
+  PROGRESS        NIL, or a function that is called after each simulation with the keyword
+                  arguments :PHASE (its name), :TRACE (its number, from 1), :SIMULATIONS,
+                  :REJECTED (samples of this trace), :DISCREPANCIES (kinds), :SECONDS and
+                  :VERDICT (of the confidence rule, or NIL)
   PARAMETERS      a property list of scene parameters that override the scene's
   ARGUMENTS       a list of (parameter type): symbolic arguments of the plan
   EXECUTION       :TRACE (stop where a run leaves the trace) or :PLAN (run to the plan's end)
@@ -221,6 +229,8 @@ return a SEARCH-RESULT.
   ON-DISCREPANCY  :RETURN, or :SIGNAL DISCREPANCY-FOUND with the restarts CONTINUE-SEARCH,
                   NEXT-TRACE and ACCEPT
   MAX-PATHS       the largest number of paths of the plan to explore
+  TRACES          which traces of a path are sampled, as for MAKE-EXPLORATION: :LAST,
+                  :EVERY-INSTANCE or :EVERY-STATE
 While a search is in progress the restart STOP-SEARCH returns what was found so far, and so does
 REQUEST-STOP after the simulation in progress; where a run signals an error there are SKIP-SAMPLE,
 RETRY-SAMPLE and ABORT-TRACE.
@@ -242,6 +252,7 @@ UNKNOWN-CONFIDENCE-RULE, INVALID-CONFIDENCE, INVALID-DELTA, UNKNOWN-PARAMETER, J
            (exploration (symbolic:make-exploration
                          (plan:plan-name plan) domain
                          :constraint constraint :arguments arguments :max-paths max-paths
+                         :traces traces
                          :progress (exploration-watcher (lambda () search)))))
       (setf **stop-requested** nil)
       (unwind-protect
@@ -249,15 +260,14 @@ UNKNOWN-CONFIDENCE-RULE, INVALID-CONFIDENCE, INVALID-DELTA, UNKNOWN-PARAMETER, J
              (setf search (make-instance
                            'search-state
                            :plan plan :domain domain :parameters parameters
-                           :constraint (ec:state-constraint-name
-                                        (symbolic:exploration-constraint exploration))
+                           :constraint (constraint-name exploration)
                            :rule rule-object :rule-name rule :seed seed :sampler sampler
                            :targets targets :budget budget :seconds seconds
                            :keep-going keep-going :store store :shrink shrink :explain explain
                            :progress progress :execution execution :compare compare
                            :comparison comparison :on-discrepancy on-discrepancy
                            :context context))
-             (with-journal (search resume arguments max-paths)
+             (with-journal (search resume arguments (list max-paths traces))
                (unless (reuse-stored search)
                  (search-traces search exploration)))
              (search-result search exploration))

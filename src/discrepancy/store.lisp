@@ -51,6 +51,7 @@ cannot be done there is a warning: what was found is worth more than the file."
            (let ((part (json:get-key object key nil)))
              (and (listp part) (json:get-key part "name" nil)))))
     (and object
+         (null (json:get-key object "actions" nil)) ; one that was shrunk: its original is here, too
          (equal (name "plan") (ec:name-text (plan:plan-name (search-plan search))))
          (equal (name "domain")
                 (ec:name-text (symbolic:action-theory-name (search-domain search))))
@@ -83,7 +84,8 @@ cannot be done there is a warning: what was found is worth more than the file."
       (when (and (not (end-reason search))
                  (fits-search-p (stored-object file) search))
         (report-search search :reuse)
-        (multiple-value-bind (discrepancy text) (in-phase (search :reuse) (retry-stored search file))
+        (multiple-value-bind (discrepancy text)
+            (in-phase (search :reuse) (retry-stored search file))
           (let* ((kind (and discrepancy (discrepancy-kind discrepancy)))
                  (known (and kind (gethash kind (search-kinds search)))))
             (cond (known (incf (discrepancy-occurrences known)))
