@@ -130,7 +130,8 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "names") (:file "sorts") (:file "theory") (:file "terms")
                              (:file "formula") (:file "axioms") (:file "declarations")
                              (:file "clauses") (:file "define-theory")
-                             (:file "state-constraints") (:file "foundations")))
+                             (:file "state-constraints") (:file "foundations")
+                             (:file "revising")))
                (:module "grounding"
                 :serial t
                 :components ((:file "ground-theory") (:file "compiler") (:file "numeric")
@@ -225,7 +226,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "action-theory") (:file "bindings") (:file "clauses")
                              (:file "checks") (:file "define-action") (:file "returned-values")
-                             (:file "outcomes")))
+                             (:file "outcomes") (:file "revising")))
                (:module "paths"
                 :serial t
                 :components ((:file "oracle") (:file "path") (:file "decisions") (:file "journal")))
@@ -332,7 +333,9 @@ The environment variable CXX names another compiler than g++."))
                (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "scene-runs")
-               (:file "replay") (:file "replay-file")))
+               (:file "replay") (:file "replay-file")
+               (:file "edits") (:file "edits-examples") (:file "edits-conditions")
+               (:file "edits-effects") (:file "edits-outcomes") (:file "edits-check")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."

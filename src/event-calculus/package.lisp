@@ -16,6 +16,8 @@ them and why, and what they say of a state after known events.")
    #:sort-elements #:element-sort #:sort-name #:sort-parents #:sort-range #:sort-constants
    #:sort-terms
    #:axiom #:axiom-name #:axiom-label #:axiom-formula #:axiom-position
+   ;; revised theories
+   #:revised-theory #:effect-axioms #:event-axioms
    ;; names and atoms
    #:name-keyword #:name-text #:atom-text #:text-atom
    ;; formulas
