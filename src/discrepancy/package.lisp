@@ -55,6 +55,10 @@ search, replay.")
    ;; replay
    #:save-discrepancy #:replay #:replay-result #:replay-status #:replay-verdict
    #:replay-discrepancy #:replay-text
+   ;; candidate edits of the theory
+   #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
+   #:edit-requirements #:edit-removes-p #:edit-contradicted #:edit-runs #:edited-theory
+   #:edited-domain
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy
