@@ -72,10 +72,7 @@ of action and the same predicate, or failure, at which theory and simulation par
          (trace (discrepancy-trace discrepancy))
          (sample (make-sample (sample-index (discrepancy-sample discrepancy))
                               (sample-parameters (discrepancy-sample discrepancy)) values))
-         (run (execute-sample (discrepancy-domain discrepancy)
-                              (plan:plan-name (discrepancy-plan discrepancy)) sample
-                              :trace trace :execution (discrepancy-execution discrepancy)
-                              :arguments (symbolic:trace-arguments trace))))
+         (run (run-case discrepancy :sample sample)))
     (decf (prober-left prober))
     (if (eq (run-validity run) :valid)
         (let ((judgement (judge-run (discrepancy-domain discrepancy) run trace

@@ -8,6 +8,7 @@ search, replay.")
                     (#:symbolic #:discrepancy-finder.symbolic-execution)
                     (#:projection #:discrepancy-finder.projection)
                     (#:source #:discrepancy-finder.source)
+                    (#:desig #:discrepancy-finder.designators)
                     (#:json #:discrepancy-finder.json)
                     (#:foreign #:discrepancy-finder.foreign))
   (:import-from #:discrepancy-finder.symbolic-execution #:next-trace)
@@ -59,6 +60,12 @@ search, replay.")
    #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
    #:edit-requirements #:edit-removes-p #:edit-contradicted #:edit-runs #:edited-theory
    #:edited-domain
+   ;; shrinking
+   #:shrink-discrepancy #:shrinking #:shrinking-discrepancy #:shrinking-original
+   #:shrinking-boundary #:shrinking-runs #:shrinking-seconds #:shrinking-exhausted
+   #:shrinking-text #:shrinking-json #:boundary #:boundary-parameter #:boundary-failing
+   #:boundary-passing #:boundary-text #:run-case
+   #:recorded-action #:recorded-action-text #:discrepancy-actions #:discrepancy-left-out
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy

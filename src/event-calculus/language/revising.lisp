@@ -5,10 +5,22 @@
 
 (in-package #:discrepancy-finder.event-calculus)
 
-(defun revised-theory (theory &key without with)
+(defun about-the-beginning-p (axiom)
+  "Return true if AXIOM says what is initially true."
+  (labels ((look (form)
+             (and (consp form)
+                  (or (eq (first form) :initially) (some #'look (rest form))))))
+    (look (axiom-formula axiom))))
+
+(defun completed-events (theory)
+  "Return the completions of THEORY, and that of all events."
+  (adjoin '(nil :happens) (theory-completions theory) :test #'equal))
+
+(defun revised-theory (theory &key without with complete-events)
   "Return THEORY without the axioms whose names are in the list WITHOUT, and with those of WITH, a
 list of (name formula), at the end; an axiom of the same name is replaced in its place.  The state
-constraints are kept.  The new theory is not registered.  Signals THEORY-ERROR."
+constraints are kept.  With COMPLETE-EVENTS no event happens unless an axiom makes it happen.  The
+new theory is not registered.  Signals THEORY-ERROR."
   (let* ((new (loop for (name formula) in with
                     collect (make-axiom
                              :name (name-keyword name)
@@ -29,7 +41,9 @@ constraints are kept.  The new theory is not registered.  Signals THEORY-ERROR."
                    :non-inertial (theory-non-inertial theory)
                    :manual-release (theory-manual-release theory)
                    :events (theory-events theory) :axioms (append kept new)
-                   :completions (theory-completions theory)
+                   :completions (if complete-events
+                                    (completed-events theory)
+                                    (theory-completions theory))
                    :exclusions (theory-exclusions theory)
                    :time-range (theory-time-range theory)
                    :offset-range (theory-offset-range theory)
