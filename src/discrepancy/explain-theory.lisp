@@ -45,7 +45,7 @@ LAST."
                       (push (moment-of ground solver candidates (1+ number) (run-step-state step))
                             moments)
                       (= (1+ number) last))
-                    domain solver state run trace :consistent)))
+                    domain solver state (run-steps run) trace :consistent)))
      domain run nil)
     (coerce (reverse moments) 'vector)))
 
@@ -114,6 +114,18 @@ about that time.  What the theory says of the beginning is left out unless MOMEN
                  (list (list (numbered-name *event-prefix* last) (list :happens event last))))
             (and condition (list (list *outcome-name* condition))))
      :complete-events t)))
+
+(defun call-with-pieces (function moments last)
+  "Call FUNCTION with later and earlier ones of MOMENTS, at most at LAST, until it returns true, and
+return that and the moment.  Pieces of the run begin only where nothing before matters."
+  (loop for back = 0 then (if (zerop back) 1 (* 2 back))
+        for time = (max 0 (- last back))
+        for moment = (svref moments time)
+        do (when (or (zerop time) (moment-self-contained-p moment))
+             (let ((answer (handler-case (funcall function moment)
+                             (ec:event-calculus-error () nil))))
+               (when answer (return (values answer moment)))))
+        until (zerop time)))
 
 ;;; Claims
 
