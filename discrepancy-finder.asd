@@ -432,7 +432,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
                              (:file "regions") (:file "search") (:file "judgement")
-                             (:file "replay")
+                             (:file "replay") (:file "search-phases") (:file "journal")
                              (:file "table-top") (:file "tolerances")))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
@@ -450,5 +450,6 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "evaluator")
                (:file "household") (:file "clingo") (:file "bounded") (:file "progression")
-               (:file "exploration") (:file "calibration") (:file "transport")
+               (:file "exploration") (:file "calibration") (:file "searching")
+               (:file "transport")
                (:file "benchmarks")))
