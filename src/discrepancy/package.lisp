@@ -84,4 +84,8 @@ search, replay.")
    #:discrepancy-found #:discrepancy-found-discrepancy
    #:continue-search #:next-trace #:accept
    #:journal-error #:journal-error-file #:journal-error-reason
-   #:invalid-argument))
+   #:invalid-argument
+   ;; simulation without a trace
+   #:simulate-blindly #:allowed-initial-states #:blind-result #:blind-result-simulations
+   #:blind-result-rejected #:blind-result-kinds #:blind-result-discrepancy
+   #:blind-result-seconds))
