@@ -437,6 +437,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
+               (:module "drawers" :pathname "plans/"
+                :components ((:file "looking-into-drawers")))
                (:file "interface") (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
