@@ -61,13 +61,13 @@ the action binding has them; those that it lacks by their class."
           do (push name names)
           collect (list name (list :implies (list :happens pattern :?time) (timed literal))))))
 
-(defun requirement-parts (domain transition pattern condition failures mode)
-  "Return the parts (kind sentences replaced requirements) of the edit by which CONDITION, a list of
+(defun requirement-parts (domain kind transition pattern condition failures mode)
+  "Return the parts (KIND sentences replaced requirements) of the edit by which CONDITION, a list of
 literals over PATTERN, is required."
   (let* ((theory (symbolic:action-theory-theory domain))
          (replaced (and (eq mode :instead)
                         (mapcar #'ec:axiom-name (ec:event-axioms theory (first pattern))))))
-    (list :requirement
+    (list kind
           (precondition-sentences theory pattern condition replaced)
           replaced
           (list (make-requirement :class (transition-class transition)
@@ -92,7 +92,13 @@ whatever is the case."
   "Return the parts (kind sentences replaced requirements) of edits for the outcome of TRANSITION,
 which the theory forbids, best first."
   (let ((failures (failure-names transitions transition))
-        (theory (symbolic:action-theory-theory domain)))
+        (theory (symbolic:action-theory-theory domain))
+        ;; What has never been seen to succeed requires nobody knows what.
+        (kind (if (some (lambda (other)
+                          (and (same-action-p other transition) (transition-succeeded-p other)))
+                        transitions)
+                  :requirement
+                  :guess)))
     (multiple-value-bind (conditions pattern)
         (requirement-hypotheses domain transitions transition)
       (append
@@ -100,8 +106,8 @@ which the theory forbids, best first."
              append (loop for mode in (if (transition-succeeded-p transition)
                                           '(:instead)
                                           '(:also :instead))
-                          collect (requirement-parts domain transition pattern condition failures
-                                                     mode)))
+                          collect (requirement-parts domain kind transition pattern condition
+                                                     failures mode)))
        (list (may-fail-parts domain transition pattern failures))
        ;; A sentence of the theory may be what forbids a success.
        (when (transition-succeeded-p transition)
