@@ -335,7 +335,8 @@ The environment variable CXX names another compiler than g++."))
                (:file "results") (:file "search") (:file "report") (:file "scene-runs")
                (:file "replay") (:file "replay-file")
                (:file "edits") (:file "edits-examples") (:file "edits-conditions")
-               (:file "edits-effects") (:file "edits-outcomes") (:file "edits-check")))
+               (:file "edits-effects") (:file "edits-outcomes") (:file "edits-check")
+               (:file "refine") (:file "refine-text")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."

@@ -121,17 +121,22 @@ best first; RUNS are those to learn from."
                until (= checked *edits-checked*))
          #'better-edit-p)))))
 
-(defun candidate-edits (discrepancy &key runs)
-  "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
-checked by judging again RUNS, a list of valid runs in the same domain, and the run of DISCREPANCY
-itself; without RUNS those of the same trace that the search has made."
-  (let* ((run (discrepancy-run discrepancy))
-         (runs (adjoin run (or runs (known-runs discrepancy)))))
-    (z3:with-context (context)
-      (edits-for-run (discrepancy-domain discrepancy) run runs context))))
+(defun plain-runs (entries)
+  "Return the runs in ENTRIES, a list of runs and of (run . judgement)."
+  (loop for entry in entries collect (if (consp entry) (car entry) entry)))
 
 (defun known-runs (discrepancy)
   "Return the runs of the same trace as DISCREPANCY that the search has made."
-  (if (slot-exists-p discrepancy 'runs)
-      (slot-value discrepancy 'runs)
-      '()))
+  (plain-runs (if (slot-exists-p discrepancy 'runs)
+                  (slot-value discrepancy 'runs)
+                  '())))
+
+(defun candidate-edits (discrepancy &key (runs (known-runs discrepancy)))
+  "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
+checked by judging again RUNS, a list of valid runs or of (RUN . JUDGEMENT) in the same domain, and
+the run of DISCREPANCY itself.  By default RUNS are those of the same trace that the search has
+made."
+  (let* ((run (discrepancy-run discrepancy))
+         (runs (adjoin run (plain-runs runs))))
+    (z3:with-context (context)
+      (edits-for-run (discrepancy-domain discrepancy) run runs context))))

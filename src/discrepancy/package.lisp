@@ -37,7 +37,7 @@ search, replay.")
    #:result-discrepancies #:result-traces #:result-simulations #:result-iterations #:result-seed
    #:result-exploration #:result-text #:result-symbolic-seconds #:result-simulation-seconds
    #:trace-result #:trace-result-status #:trace-result-trace #:trace-result-verdict
-   #:trace-result-samples #:trace-result-rejected #:trace-result-reason
+   #:trace-result-samples #:trace-result-runs #:trace-result-rejected #:trace-result-reason
    #:discrepancy #:discrepancy-plan #:discrepancy-trace #:discrepancy-sample #:discrepancy-run
    #:discrepancy-judgement #:discrepancy-seed #:discrepancy-file #:discrepancy-text
    #:discrepancy-parameters #:discrepancy-confirmed-p
@@ -50,6 +50,11 @@ search, replay.")
    #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
    #:edit-requirements #:edit-removes-p #:edit-contradicted #:edit-runs #:edited-theory
    #:edited-domain
+   ;; refinement
+   #:refine-theory #:refinement #:refinement-domain #:refinement-initial-domain
+   #:refinement-steps #:refinement-status #:refinement-reason #:refinement-simulations
+   #:refinement-runs #:refinement-results #:refinement-text #:refinement-step
+   #:refinement-step-discrepancy #:refinement-step-edit #:refinement-step-alternatives
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy

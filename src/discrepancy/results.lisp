@@ -61,6 +61,7 @@
   (samples 0 :type (integer 0) :read-only t)
   (rejected 0 :type (integer 0) :read-only t)
   (left-trace 0 :type (integer 0) :read-only t)
+  (runs '() :type list :read-only t)
   (discrepancies '() :type list :read-only t))
 
 (setf (documentation 'trace-result-trace 'function)
@@ -74,7 +75,9 @@
       (documentation 'trace-result-samples 'function)
       "Return the number of samples that the theory allows."
       (documentation 'trace-result-rejected 'function)
-      "Return the number of samples that were not valid.")
+      "Return the number of samples that were not valid."
+      (documentation 'trace-result-runs 'function)
+      "Return the list of (RUN . JUDGEMENT) of the valid runs in their order.")
 
 (defmethod print-object ((result trace-result) stream)
   (print-unreadable-object (result stream :type t)

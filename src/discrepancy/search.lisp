@@ -85,6 +85,7 @@ strata, newest first."
   (round 0 :type (integer 0))
   (pending '() :type list)
   (verdict nil)
+  (runs '() :type list)
   (discrepancies '() :type list))
 
 (defun parameter-bounds (parameters)
@@ -114,6 +115,7 @@ strata, newest first."
            :samples (evidence-blind (trace-search-evidence trace-search))
            :rejected (trace-search-rejected trace-search)
            :left-trace (trace-search-left trace-search)
+           :runs (reverse (trace-search-runs trace-search))
            :discrepancies (reverse (trace-search-discrepancies trace-search)))
           stop))
 
@@ -190,6 +192,7 @@ satisfied."
                                    :context (search-context search)
                                    :compare (search-compare search))))
          (setf (trace-search-in-a-row trace-search) 0)
+         (push (cons run judgement) (trace-search-runs trace-search))
          (ecase (judgement-verdict judgement)
            (:discrepancy (note-discrepancy trace-search sample run judgement))
            (:left-trace (incf (trace-search-left trace-search)) nil)
@@ -221,14 +224,20 @@ Return the TRACE-RESULT, and true if the whole search is to end."
   (unless test
     (error 'invalid-argument :name name :value value :expected expected)))
 
+(defun constraint-name (constraint)
+  "Return the name of CONSTRAINT, a state constraint or :ANY-ACTION."
+  (if (keywordp constraint) constraint (ec:state-constraint-name constraint)))
+
 (defun find-discrepancies (plan &key domain constraint (confidence 0.95d0) (rule :paper) delta
                                   (seed 1) (sampler :independent) (budget 1000) parameters
                                   arguments (execution :trace)
-                                  (compare :final) (on-discrepancy :return) (max-paths 10000))
+                                  (compare :final) (on-discrepancy :return) (max-paths 10000)
+                                  (traces :last))
   "Search for a discrepancy between the theory and the scene of DOMAIN along PLAN (a symbol) and
 return a SEARCH-RESULT.
   DOMAIN          a domain or its name
-  CONSTRAINT      the name of the state constraint; NIL: the theory's only one
+  CONSTRAINT      the name of the state constraint; NIL: the theory's only one; :ANY-ACTION: each
+                  performed action ends a trace
   CONFIDENCE      in ]0, 1[, for the confidence RULE: :PAPER, :PAPER-SD, :PREDICTION,
                   :ZERO-FAILURE or :SOUND
   DELTA           in ]0, 1[, for the last two: the part of a trace's initial region that may be
@@ -240,6 +249,7 @@ return a SEARCH-RESULT.
   PARAMETERS      property list of scene parameters that differ from the scene's
   ARGUMENTS       list of (parameter boolean), the plan's symbolic arguments
   EXECUTION       :TRACE or :PLAN, COMPARE :FINAL or :EVERY-STEP
+  TRACES          which ones of each path: :LAST, :EVERY-STATE, ..., see SYMBOLIC:MAKE-EXPLORATION
   ON-DISCREPANCY  :RETURN, or :SIGNAL for DISCREPANCY-FOUND with the restarts CONTINUE-SEARCH,
                   NEXT-TRACE and ACCEPT
 Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND, STATE-CONSTRAINT-NOT-FOUND, INVALID-CONFIDENCE,
@@ -266,13 +276,14 @@ and what symbolic execution signals."
          (domain (domain-with-parameters domain parameters))
          (exploration (symbolic:make-exploration (plan:plan-name plan) domain :constraint constraint
                                                              :arguments arguments
+                                                             :traces traces
                                                              :max-paths max-paths)))
     (unwind-protect
          (z3:with-context (context)
            (let ((search (make-instance
                           'search-state
                           :plan plan :domain domain :parameters parameters
-                          :constraint (ec:state-constraint-name
+                          :constraint (constraint-name
                                        (symbolic:exploration-constraint exploration))
                           :rule rule-object :seed seed :sampler sampler :budget budget
                           :execution execution
