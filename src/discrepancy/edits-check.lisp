@@ -1,7 +1,7 @@
 ;;;; Candidate edits, each checked by judging again all runs so far.
 ;;;;
-;;;; CANDIDATE-EDITS is the entry point.  A run CONTRADICTS an edit if the theory agreed with it for
-;;;; longer before the edit.
+;;;; CANDIDATE-EDITS is the entry point.  A run CONTRADICTS an edit if the theory agreed with it
+;;;; further before the edit.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -23,27 +23,23 @@ by DOMAIN, or NIL.  CONTEXT is a Z3 context."
               do (z3:solver-assert solver proposition))
         (nth-value 1 (judge-steps domain solver state (refreshed-steps domain run)))))))
 
-(defun agreed-steps (domain run context)
-  "Return with how many steps of RUN the theory of DOMAIN agrees; one more than there are if it
-agrees with all."
+(defun agreement (domain run context)
+  "Return how far the theory of DOMAIN agrees with RUN: twice the number of the steps before the
+first divergence, one more if at that step the outcome agrees and the state does not."
   (let ((divergence (first-divergence domain run context)))
-    (if divergence
-        (divergence-step divergence)
-        (1+ (length (run-steps run))))))
+    (cond ((null divergence) (* 2 (1+ (length (run-steps run)))))
+          ((eq (divergence-kind divergence) :outcome) (* 2 (divergence-step divergence)))
+          (t (1+ (* 2 (divergence-step divergence)))))))
 
 (defun event-possible-p (domain event context)
   "Return true if the theory of DOMAIN allows EVENT in some state, an initial one or not."
-  (z3:with-released-terms (context)
-    (z3:with-solver (solver context)
-      (let ((state (free-state (symbolic:action-theory-ground domain) context '())))
-        (loop for (axiom . proposition) in (ec:initial-conditions state)
-              unless (and (typep axiom 'ec:axiom)
-                          (eq :initially (first (ec:axiom-formula axiom))))
-                do (z3:solver-assert solver proposition))
-        (multiple-value-bind (next conditions)
-            (ec:progress state (ec:event-number (symbolic:action-theory-ground domain) event))
-          (declare (ignore next))
-          (consistent-p solver (mapcar #'cdr conditions)))))))
+  (call-with-any-state
+   domain context
+   (lambda (solver state)
+     (multiple-value-bind (next conditions)
+         (ec:progress state (ec:event-number (symbolic:action-theory-ground domain) event))
+       (declare (ignore next))
+       (consistent-p solver (mapcar #'cdr conditions))))))
 
 (defun requirements-possible-p (domain edit transition context)
   "Return true if the requirements of EDIT, for the action of TRANSITION, leave DOMAIN, which is
@@ -54,8 +50,7 @@ edited, a state in which the action can succeed."
 (defun checked-edit (domain parts transition run runs agreed context)
   "Return the EDIT of PARTS (kind sentences replaced requirements) of DOMAIN, checked against RUNS,
 or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed.  AGREED
-are the numbers of the steps of RUNS with which the theory agrees now; RUN, one of RUNS, is that of
-the discrepancy."
+tells how far the theory agrees with RUNS now; RUN, one of RUNS, is that of the discrepancy."
   (destructuring-bind (kind sentences replaced &optional requirements) parts
     (flet ((edit (&rest figures)
              (apply #'make-edit :kind kind :sentences sentences :replaced replaced
@@ -63,7 +58,7 @@ the discrepancy."
       (let* ((edited (handler-case (edited-domain domain (edit))
                        (ec:theory-error () (return-from checked-edit nil))))
              (now (if (requirements-possible-p edited (edit) transition context)
-                      (loop for run in runs collect (agreed-steps edited run context))
+                      (loop for run in runs collect (agreement edited run context))
                       (return-from checked-edit nil)))
              (place (position run runs)))
         (edit :removes-p (> (nth place now) (nth place agreed))
@@ -96,12 +91,12 @@ says more."
           do (cond ((< one two) (return t))
                    ((> one two) (return nil))))))
 
-(defun edit-parts-for (domain transition runs divergence)
+(defun edit-parts-for (domain transition runs divergence context)
   "Return the parts (kind sentences replaced requirements) of edits for DIVERGENCE at TRANSITION,
 best first; RUNS are those to learn from."
   (let ((transitions (loop for run in runs append (remove nil (run-transitions domain run)))))
     (if (eq (divergence-kind divergence) :outcome)
-        (outcome-edits domain transitions transition)
+        (outcome-edits domain transitions transition context)
         (state-edits domain transitions transition divergence))))
 
 (defun edits-for-run (domain run runs context)
@@ -110,10 +105,11 @@ best first; RUNS are those to learn from."
          (transition (and divergence
                           (nth (divergence-step divergence) (run-transitions domain run)))))
     (when transition
-      (let ((agreed (loop for run in runs collect (agreed-steps domain run context))))
+      (let ((agreed (loop for run in runs collect (agreement domain run context))))
         (stable-sort
          (loop with checked = 0
-               for parts in (remove-duplicates (edit-parts-for domain transition runs divergence)
+               for parts in (remove-duplicates (edit-parts-for domain transition runs divergence
+                                                               context)
                                                :test #'equalp :from-end t)
                for edit = (checked-edit domain parts transition run runs agreed context)
                when edit

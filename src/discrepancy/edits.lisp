@@ -54,8 +54,8 @@ precondition of what has never succeeded in the runs), :MAY-FAIL (an action may 
       (documentation 'edit-requirements 'function)
       "Return what an edit changes in the action bindings: a list of REQUIREMENTs."
       (documentation 'edit-removes-p 'function)
-      "Return true if an edit removes the discrepancy: theory and simulation no longer part at its
-step."
+      "Return true if an edit removes the discrepancy: theory and simulation no longer part where they
+did."
       (documentation 'edit-contradicted 'function)
       "Return the number of runs with which the theory agrees longer without the edit."
       (documentation 'edit-runs 'function)

@@ -31,20 +31,29 @@
                (ec:theory-axioms (symbolic:action-theory-theory
                                   (refinement-domain refinement))))))
 
+(defun formula-conjuncts (formula)
+  (cond ((eq formula t) '())
+        ((eq (first formula) :and) (rest formula))
+        (t (list formula))))
+
+(defun superseded-p (old new)
+  "Return true if the requirement OLD says nothing more beside the later NEW."
+  (and (eq (requirement-class old) (requirement-class new))
+       (eq (requirement-type old) (requirement-type new))
+       (or (eq (requirement-mode new) :instead)
+           (and (eq (requirement-mode old) (requirement-mode new))
+                (subsetp (formula-conjuncts (requirement-formula old))
+                         (formula-conjuncts (requirement-formula new)) :test #'equal)))))
+
 (defun last-requirements (refinement)
-  "Return the requirements of REFINEMENT that were not replaced by a later one."
+  "Return the requirements of REFINEMENT that no later one supersedes."
   (let ((requirements '()))
     (dolist (step (refinement-steps refinement) (reverse requirements))
       (dolist (requirement (and (refinement-step-edit step)
                                 (edit-requirements (refinement-step-edit step))))
-        (when (eq (requirement-mode requirement) :instead)
-          (setf requirements (remove-if (lambda (old)
-                                          (and (eq (requirement-class old)
-                                                   (requirement-class requirement))
-                                               (eq (requirement-type old)
-                                                   (requirement-type requirement))))
-                                        requirements)))
-        (push requirement requirements)))))
+        (setf requirements (cons requirement
+                                 (remove-if (lambda (old) (superseded-p old requirement))
+                                            requirements)))))))
 
 (defun refinement-text (refinement)
   "Return the history of REFINEMENT, a REFINEMENT, and what the theory says in the end: a text of
