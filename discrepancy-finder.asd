@@ -343,7 +343,8 @@ The environment variable CXX names another compiler than g++."))
                (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
                (:file "explain-text")
                (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
-               (:file "boundary") (:file "shrink") (:file "brute-force")))
+               (:file "boundary") (:file "shrink") (:file "brute-force")
+               (:file "refine") (:file "refine-text")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."
