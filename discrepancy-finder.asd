@@ -332,7 +332,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "define-abstraction")
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "scene-runs")
-               (:file "replay") (:file "replay-file")))
+               (:file "replay") (:file "replay-file") (:file "result-json")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."

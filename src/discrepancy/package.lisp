@@ -46,6 +46,10 @@ search, replay.")
    ;; replay
    #:save-discrepancy #:replay #:replay-result #:replay-status #:replay-verdict
    #:replay-discrepancy #:replay-text
+   ;; results as JSON, and what pictures of them need
+   #:result-json #:result-plan #:result-domain #:result-constraint #:result-rule-name
+   #:result-confidence #:result-parameters #:trace-result-discrepancies #:sample-poses
+   #:sample-joints #:sample-parameters #:discrepancy-domain #:discrepancy-execution
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy

@@ -1,0 +1,164 @@
+;;;; Results of searches as JSON: all that a report tells, for programs to read.
+;;;;
+;;;; RESULT-JSON is the entry point.  An object for the search holds one for each trace, which holds
+;;;; one for each discrepancy.  States are arrays of the fluents that are true; of the simulation
+;;;; only those in the array "observable" are known.  Keys are lower case, words of several parts
+;;;; have underscores; steps count from 1, samples from 0; units are SI.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(defparameter *result-format* "discrepancy-finder result 1"
+  "The value of \"format\" in results.")
+
+(defun texts-json (texts)
+  (coerce texts 'simple-vector))
+
+(defun atoms-json (atoms)
+  (map 'vector #'ec:atom-text atoms))
+
+(defun position-entries (position)
+  "Return the entries \"file\" and \"line\" for a place in a plan, or NIL if it is not known."
+  (json:object "file" (json-or-null (and position (source:source-position-file position)))
+               "line" (json-or-null (and position (source:source-position-line position)))))
+
+;;; Parameters and samples
+
+(defun parameter-unit (parameter)
+  "Return the unit of PARAMETER as a text, or NIL if it is not known."
+  (case (parameter-axis parameter)
+    ((:x :y :z) "m")
+    (:yaw "rad")))
+
+(defun parameter-json (parameter)
+  (json:object "name" (parameter-name parameter)
+               "body" (json-or-null (let ((body (parameter-body parameter)))
+                                      (if (keywordp body) (ec:name-text body) body)))
+               "min" (parameter-min parameter) "max" (parameter-max parameter)
+               "unit" (json-or-null (parameter-unit parameter))
+               "meaning" (json-or-null (parameter-meaning parameter))
+               "tolerance" (json-boolean (tolerance-p parameter))))
+
+(defun drawn-parameters (domain trace)
+  "Return the list of the PARAMETERs that are drawn for TRACE; NIL if it cannot be sampled."
+  (handler-case (remove-if #'fixed-p (initial-parameters domain trace))
+    (sampling-error () '())))
+
+;;; Traces and runs
+
+(defun trace-steps-json (trace)
+  (map 'vector
+       (lambda (step state)
+         (append (json:object "designator" (symbolic:step-designator step)
+                              "event" (json-or-null (and (symbolic:step-event step)
+                                                         (ec:atom-text
+                                                          (symbolic:step-event step))))
+                              "outcome" (ec:name-text (symbolic:step-outcome step))
+                              "state" (atoms-json (ec:state-fluents state)))
+                 (position-entries (symbolic:step-position step))))
+       (symbolic:trace-steps trace)
+       (rest (symbolic:trace-states trace))))
+
+(defun theory-side-json (trace)
+  "Return what the theory says of TRACE."
+  (json:object
+   "arguments" (map 'vector #'symbolic:argument-to-json (symbolic:trace-arguments trace))
+   "initial" (atoms-json (ec:state-fluents (symbolic:trace-initial-state trace)))
+   "steps" (trace-steps-json trace)
+   "final" (atoms-json (ec:state-fluents (symbolic:trace-final-state trace)))))
+
+(defun run-steps-json (run)
+  (map 'vector
+       (lambda (step)
+         (append (json:object "designator" (princ-to-string (run-step-designator step))
+                              "outcome" (ec:name-text (run-step-outcome step))
+                              "failure" (json-or-null (run-step-failure step))
+                              "state" (atoms-json (observed-fluents (run-step-state step))))
+                 (position-entries (run-step-position step))))
+       (run-steps run)))
+
+(defun simulation-side-json (run)
+  "Return what was seen of RUN."
+  (json:object
+   "ending" (ec:name-text (run-ending run))
+   "seconds" (run-seconds run)
+   "hash" (hash-text (run-hash run))
+   "observable" (atoms-json (mapcar #'car (run-initial-state run)))
+   "initial" (atoms-json (observed-fluents (run-initial-state run)))
+   "steps" (run-steps-json run)
+   "final" (atoms-json (observed-fluents (run-final-state run)))))
+
+(defun found-json (discrepancy)
+  "Return DISCREPANCY as the result tells it; its file tells what a replay needs."
+  (let* ((judgement (discrepancy-judgement discrepancy))
+         (divergence (judgement-divergence judgement))
+         (run (discrepancy-run discrepancy))
+         (step (nth (divergence-step divergence) (run-steps run))))
+    (json:object
+     "summary" (discrepancy-summary discrepancy)
+     "verdict" (string-downcase (judgement-verdict judgement))
+     "confirmed" (json-boolean (discrepancy-confirmed-p discrepancy))
+     "file" (json-or-null (discrepancy-file discrepancy))
+     "divergence" (append (divergence-json divergence)
+                          (json:object "designator" (princ-to-string (run-step-designator step))
+                                       "failure" (json-or-null (run-step-failure step))))
+     "sample" (sample-json (discrepancy-sample discrepancy))
+     "simulation" (simulation-side-json run))))
+
+(defun trace-result-json (result domain)
+  "Return what sampling a trace of DOMAIN came to, the TRACE-RESULT RESULT."
+  (let ((trace (trace-result-trace result)))
+    (json:object
+     "status" (string-downcase (trace-result-status result))
+     "reason" (trace-result-reason result)
+     "samples" (trace-result-samples result)
+     "rejected" (trace-result-rejected result)
+     "left_trace" (trace-result-left-trace result)
+     "parameters" (map 'vector #'parameter-json (drawn-parameters domain trace))
+     "theory" (theory-side-json trace)
+     "discrepancies" (map 'vector #'found-json (trace-result-discrepancies result)))))
+
+;;; The search
+
+(defun tolerances-json (domain)
+  (map 'vector #'parameter-json (tolerance-parameters (domain-scene domain))))
+
+(defun result-plan-json (result)
+  (let ((plan (result-plan result)))
+    (append (json:object "name" (ec:name-text (plan:plan-name plan)))
+            (position-entries (plan:plan-position plan)))))
+
+(defun result-domain-json (result)
+  (let ((domain (result-domain result)))
+    (json:object "name" (ec:name-text (symbolic:action-theory-name domain))
+                 "theory" (ec:name-text (ec:theory-name (symbolic:action-theory-theory domain)))
+                 "file" (json-or-null (domain-file domain)))))
+
+(defun result-json (result)
+  "Return RESULT, a SEARCH-RESULT, as a JSON object: status, headline, options, counts, seconds, and
+for each trace what theory and simulation say, step by step, with the discrepancies found.
+JSON:ENCODE makes a text of it."
+  (let ((exploration (result-exploration result)))
+    (json:object
+     "format" *result-format*
+     "status" (string-downcase (result-status result))
+     "headline" (headline result)
+     "reason" (result-reason result)
+     "plan" (result-plan-json result)
+     "domain" (result-domain-json result)
+     "constraint" (ec:name-text (result-constraint result))
+     "rule" (string-downcase (result-rule-name result))
+     "confidence" (result-confidence result)
+     "seed" (result-seed result)
+     "parameters" (loop for (name value) on (result-parameters result) by #'cddr
+                        collect (cons (ec:name-text name) (decimal-double value)))
+     "tolerances" (tolerances-json (result-domain result))
+     "iterations" (result-iterations result)
+     "simulations" (result-simulations result)
+     "seconds" (json:object "symbolic" (float (result-symbolic-seconds result) 1d0)
+                            "simulation" (float (result-simulation-seconds result) 1d0))
+     "exploration" (json:object
+                    "complete" (json-boolean (symbolic:exploration-complete-p exploration))
+                    "gaps" (texts-json (mapcar #'princ-to-string
+                                               (symbolic:exploration-gaps exploration))))
+     "traces" (map 'vector (lambda (trace) (trace-result-json trace (result-domain result)))
+                   (result-traces result)))))
