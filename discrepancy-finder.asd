@@ -55,8 +55,8 @@ The environment variable CXX names another compiler than g++."))
   :description "Finds out where a Discrete Event Calculus model of a robot's world is wrong."
   :version "0.1.0"
   :license "MIT"
-  :depends-on ("discrepancy-finder/discrepancy" "discrepancy-finder/json"
-               "alexandria" "command-line-arguments")
+  :depends-on ("discrepancy-finder/discrepancy" "discrepancy-finder/report"
+               "discrepancy-finder/json" "alexandria" "command-line-arguments")
   :pathname "src/interface/"
   :serial t
   :components ((:file "package") (:file "repl") (:file "command-line") (:file "simulate")
@@ -286,7 +286,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "projection") (:file "building") (:file "observations")
                              (:file "performing")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "runner") (:file "head")
+                :components ((:file "profiles") (:file "trail") (:file "runner") (:file "head")
                              (:file "torso")))
                (:module "navigation" :serial t
                 :components ((:file "terrain") (:file "footing") (:file "connection")
@@ -333,6 +333,15 @@ The environment variable CXX names another compiler than g++."))
                (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
                (:file "results") (:file "search") (:file "report") (:file "scene-runs")
                (:file "replay") (:file "replay-file") (:file "result-json")))
+
+(asdf:defsystem "discrepancy-finder/report"
+  :description "Results of searches as pages for a browser."
+  :depends-on ("discrepancy-finder/discrepancy" "discrepancy-finder/json")
+  :pathname "src/report/"
+  :serial t
+  :components ((:file "package") (:file "html") (:file "style") (:file "shots") (:file "sheet")
+               (:file "regions") (:file "map") (:file "strips") (:file "timeline")
+               (:file "page")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."

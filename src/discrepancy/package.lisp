@@ -49,7 +49,7 @@ search, replay.")
    ;; results as JSON, and what pictures of them need
    #:result-json #:result-plan #:result-domain #:result-constraint #:result-rule-name
    #:result-confidence #:result-parameters #:trace-result-discrepancies #:sample-poses
-   #:sample-joints #:sample-parameters #:discrepancy-domain #:discrepancy-execution
+   #:sample-joints #:sample-parameters #:write-file-whole #:discrepancy-domain #:discrepancy-execution
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy
