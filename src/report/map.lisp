@@ -6,11 +6,14 @@
 
 (in-package #:discrepancy-finder.report)
 
-(defparameter *map-width* 700
+(defparameter *map-width* 860
   "Maps are at most so many pixels wide.")
 
-(defparameter *map-height* 600
+(defparameter *map-height* 580
   "Maps are at most so many pixels high.")
+
+(defparameter *gutter* 34
+  "The space in pixels for numbers to the left of a map; below there is less.")
 
 (defparameter *map-margin* 0.35d0
   "The space (m) around what a map must show.")
@@ -66,6 +69,21 @@ with their colours."
                                 :style (if (string= class "after")
                                            (format nil "stroke:~a" color)
                                            (format nil "fill:~a;stroke:~:*~a" color)))))
+
+(defun polygon-area (points)
+  (/ (abs (loop for ((x0 y0) (x1 y1)) on (append points (list (first points)))
+                while x1 sum (- (* x0 y1) (* x1 y0))))
+     2))
+
+(defun largest-outline-node (sheet outlines role class)
+  "Return the polygon of the largest of OUTLINES that have ROLE, or NIL: of a robot, its base."
+  (let ((ours (loop for (its-role nil points) in outlines
+                    when (eq its-role role) collect points)))
+    (and ours
+         (polygon-node sheet (reduce (lambda (a b)
+                                       (if (> (polygon-area b) (polygon-area a)) b a))
+                                     ours)
+                       :class class))))
 
 (defun outlines-named (outlines role)
   "Return the list of (name low high) of the parts of the scene among OUTLINES that have ROLE."
@@ -169,7 +187,7 @@ the places TAKEN."
           (push (cons number number) ranges)))
     (format nil "~{~a~^, ~}"
             (loop for (from . to) in (reverse ranges)
-                  collect (if (= from to) (format nil "~d" from) (format nil "~d-~d" from to))))))
+                  collect (if (= from to) (format nil "~d" from) (format nil "~d–~d" from to))))))
 
 (defun stop-nodes (sheet stops diverging)
   "Return the numbers of the steps at the places of the base after them; the last is DIVERGING or
@@ -207,15 +225,15 @@ the scene."
                (value-string (float position 1d0))))
         (dolist (x (positions x0 x1))
           (push (line-node sheet (list (list x y0) (list x y1)) :class "grid") lines)
-          (push `(:text (:x ,(pixel-x sheet x) :y ,(- (sheet-height sheet) 5)
+          (push `(:text (:x ,(pixel-x sheet x) :y ,(+ (sheet-height sheet) 15)
                          "text-anchor" "middle" :class "tick")
                         ,(number x))
                 numbers))
         (dolist (y (positions y0 y1))
           (push (line-node sheet (list (list x0 y) (list x1 y)) :class "grid") lines)
-          (when (< 14 (pixel-y sheet y) (- (sheet-height sheet) 22))
-            (push `(:text (:x 5 :y ,(+ 4 (pixel-y sheet y)) :class "tick") ,(number y))
-                  numbers))))
+          (push `(:text (:x -6 :y ,(+ 4 (pixel-y sheet y)) "text-anchor" "end" :class "tick")
+                        ,(number y))
+                numbers)))
       (list lines numbers))))
 
 (defun map-node (domain trace shots diverging)
@@ -232,9 +250,13 @@ number of the step at which it parts from the theory, counted from 1, or NIL."
              (width (sheet-width sheet)) (height (sheet-height sheet)))
         (destructuring-bind ((lines numbers) (shapes labels))
             (list (grid-nodes sheet) (region-nodes sheet (regions-of-trace domain trace)))
-          `(:svg (:class "map" "viewBox" ,(format nil "0 0 ~,1f ~,1f" width height)
-                  :width ,(round width) :height ,(round height) :role "img"
-                  :aria-label "Top view of the scene with regions, samples and paths")
+          `(:svg (:class "map" :role "img"
+                  :aria-label "Top view of the scene with regions, samples and paths"
+                  :width ,(round (+ width *gutter*)) :height ,(round (+ height 22))
+                  "viewBox" ,(format nil "~d 0 ~,1f ~,1f" (- *gutter*) (+ width *gutter*)
+                                     (+ height 22)))
+                 (:g () ,numbers)
+                 (:svg (:width ,width :height ,height)
                  (:rect (:width ,width :height ,height :class "ground"))
                  (:g () ,lines)
                  (:g () ,(outline-nodes sheet outlines '(:fixture) "fixture-outline")
@@ -245,7 +267,7 @@ number of the step at which it parts from the theory, counted from 1, or NIL."
                         ,(item-nodes sheet outlines "before"))
                  (:g () ,(loop for shot in (rest shots)
                                collect (trail-node sheet (shot-trail shot) "trail")))
-                 (:g () ,(outline-nodes sheet (shot-after main) '(:robot) "robot-after")
+                 (:g () ,(largest-outline-node sheet (shot-after main) :robot "robot-after")
                         ,(item-nodes sheet (shot-after main) "after"))
                  (:g () ,(trail-node sheet (shot-trail main)
                                      (if diverging "trail failing" "trail main"))
@@ -253,6 +275,6 @@ number of the step at which it parts from the theory, counted from 1, or NIL."
                  (:g () ,(loop for shot in (reverse shots)
                                collect (sample-nodes sheet scene (shot-sample shot)
                                                      (shot-verdict shot))))
-                 (:g () ,labels ,(item-label-nodes sheet outlines) ,numbers)
+                 (:g () ,labels ,(item-label-nodes sheet outlines)))
                  (:rect (:x 0.5 :y 0.5 :width ,(- width 1) :height ,(- height 1)
                          :class "frame"))))))))

@@ -5,22 +5,27 @@
 
 (in-package #:discrepancy-finder.report)
 
-(defparameter *legend*
-  '((:span () (:svg (:width 12 :height 12) (:circle (:cx 6 :cy 6 :r 3.5 :class "passed"))) "passed")
-    (:span () (:svg (:width 12 :height 12) (:path (:d "M1,1L11,11M1,11L11,1" :class "failed")))
-     "failed")
-    (:span () (:svg (:width 22 :height 12)
-               (:line (:x1 0 :x2 22 :y1 6 :y2 6 :class "trail failing")))
-     "way of the base")
-    (:span () (:svg (:width 12 :height 12) (:circle (:cx 6 :cy 6 :r 4 :class "stop")))
-     "place of the base after the step with this number")
-    (:span () (:svg (:width 22 :height 12)
-               (:rect (:x 1 :y 1 :width 20 :height 10 :class "region inside")))
-     "region of the theory")
-    (:span () (:svg (:width 22 :height 12)
-               (:rect (:x 1 :y 1 :width 20 :height 10 :class "robot-after")))
-     "at the end"))
-  "What the marks of a map mean.")
+(defun legend-node (verdicts failing)
+  "Return what the marks of a map mean in which samples have VERDICTS; FAILING is true if it shows a
+discrepancy."
+  (flet ((entry (width text mark)
+           `(:span () (:svg (:width ,width :height 12) ,mark) ,text)))
+    `(:div (:class "legend")
+       ,(and (member :failed verdicts)
+             (entry 12 "sample that failed" '(:path (:d "M1,1L11,11M1,11L11,1" :class "failed"))))
+       ,(and (member :passed verdicts)
+             (entry 12 "sample that passed" '(:circle (:cx 6 :cy 6 :r 3.5 :class "passed"))))
+       ,(and (member :left verdicts)
+             (entry 12 "left the trace" '(:circle (:cx 6 :cy 6 :r 3.5 :class "left"))))
+       ,(entry 22 "way of the base"
+               `(:line (:x1 0 :x2 22 :y1 6 :y2 6
+                        :class ,(if failing "trail failing" "trail main"))))
+       ,(entry 12 "base after the steps with these numbers"
+               '(:circle (:cx 6 :cy 6 :r 4 :class "stop")))
+       ,(entry 22 "base and items at the end"
+               '(:rect (:x 1 :y 1 :width 20 :height 10 :class "robot-after")))
+       ,(entry 22 "region of the theory"
+               '(:rect (:x 1 :y 1 :width 20 :height 10 :class "region inside"))))))
 
 ;;; The head of the page
 
@@ -34,7 +39,22 @@
      (:div (:class "kicker") ,(format nil "Plan ~a against theory ~a" (key result "plan" "name")
                                       (key result "domain" "theory")))
      (:h1 () ,(verdict-title (key result "status")))
-     (:p () ,(key result "headline"))))
+     ,(let ((first (first-discrepancy result)))
+        (if first
+            (summary-node first)
+            `(:p () ,(after-colon (key result "headline")))))))
+
+(defun first-discrepancy (result)
+  (loop for trace across (key result "traces")
+        for found = (key trace "discrepancies")
+        when (plusp (length found)) return (svref found 0)))
+
+(defun after-colon (text)
+  "Return what follows the first colon in TEXT, as a sentence, or TEXT."
+  (let ((colon (position #\: text)))
+    (if colon
+        (capitalized (string-left-trim " " (subseq text (1+ colon))))
+        text)))
 
 (defun figures-node (result)
   (flet ((figure (name value)
@@ -84,7 +104,7 @@
                      (key divergence "step"))
          (:strong () ,(designator-type (key divergence "designator"))) ". "
          ,(if (string= (key divergence "kind") "outcome")
-              `(,(format nil "The simulation ends it with ~a, which the theory forbids."
+              `(,(format nil "The theory forbids how the simulation ends it: ~a."
                          (or (key divergence "failure") "success")))
               "The theory forbids the state that the simulation is in after it.")
          ,(loop for fluent across (key divergence "fluents")
@@ -120,9 +140,9 @@
 (defun samples-section (domain trace result shots diverging)
   "Return map and strips for SHOTS of TRACE; RESULT is the JSON object of the trace."
   (and shots
-       `((:h3 () "Where samples passed and failed")
+       `((:h3 () ,(if diverging "Where samples passed and failed" "Where samples passed"))
          ,(map-node domain trace shots diverging)
-         (:div (:class "legend") ,*legend*)
+         ,(legend-node (mapcar #'shot-verdict shots) diverging)
          ,(and (plusp (length (key result "parameters")))
                (strips-node (key result "parameters")
                             (loop for shot in shots
@@ -131,7 +151,7 @@
 (defun discrepancy-section (number found trace-json shots domain trace command)
   `(:section (:id ,(format nil "discrepancy-~d" number))
      (:h2 () ,(format nil "Discrepancy ~d" number))
-     ,(summary-node found)
+     ,(and (> number 1) (summary-node found))
      ,(replay-node found command)
      ,(samples-section domain trace trace-json shots (key found "divergence" "step"))
      (:h3 () "Step by step")

@@ -51,11 +51,13 @@
 (defun cross-node (sheet point title size &rest attributes)
   "Return a cross at POINT, SIZE pixels from the middle to the end of an arm."
   (let ((x (pixel-x sheet (first point))) (y (pixel-y sheet (second point))))
-    `(:path (:d ,(format nil "M~,1f,~,1fL~,1f,~,1fM~,1f,~,1fL~,1f,~,1f"
-                         (- x size) (- y size) (+ x size) (+ y size)
-                         (- x size) (+ y size) (+ x size) (- y size))
-             ,@attributes)
-            (:title () ,title))))
+    (flet ((cross (size &rest attributes)
+             `(:path (:d ,(format nil "M~,1f,~,1fL~,1f,~,1fM~,1f,~,1fL~,1f,~,1f"
+                                  (- x size) (- y size) (+ x size) (+ y size)
+                                  (- x size) (+ y size) (+ x size) (- y size))
+                      ,@attributes)
+                     (:title () ,title))))
+      (list (cross size :class "halo") (apply #'cross size attributes)))))
 
 ;;; Rectangles of the ground
 

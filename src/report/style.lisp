@@ -109,6 +109,7 @@ svg .stop-number.diverging { fill: var(--failed) }
 .passed { fill: var(--passed); fill-opacity: 0.55; stroke: #fff; stroke-width: 0.7 }
 .left { fill: #fff; stroke: var(--quiet); stroke-width: 1.2 }
 path.failed { fill: none; stroke: var(--failed); stroke-width: 2.4; stroke-linecap: round }
+.halo { fill: none; stroke: #fff; stroke-width: 5.5; stroke-linecap: round }
 .axis { stroke: #c5cbd6; stroke-width: 1.5 }
 .tick-passed { stroke: var(--passed); stroke-width: 1.5; stroke-opacity: 0.55 }
 .tick-left { stroke: var(--quiet); stroke-width: 1.5; stroke-opacity: 0.55 }

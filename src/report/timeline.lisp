@@ -26,10 +26,10 @@ something is null."
 
 (defun step-name-node (step)
   (let ((text (key step "designator")))
-    `((:div (:class "action") ,(designator-type text))
-      (:div (:class "designator") ,text)
+    `((:span (:class "action") ,(designator-type text)) " "
+      (:span (:class "designator") ,text) " "
       ,(and (key step "file")
-            `(:div (:class "place") ,(format nil "~a:~d" (key step "file") (key step "line")))))))
+            `(:span (:class "place") ,(format nil "~a:~d" (key step "file") (key step "line")))))))
 
 ;;; States
 
@@ -66,10 +66,18 @@ of texts."
           (:div (:class "changes") ,(change-nodes (changes before (texts (key step "state")))
                                                   marked))))
 
+(defun failure-message (text outcome)
+  "Return TEXT, which tells a failure, without the name of its class OUTCOME at the beginning."
+  (let ((beginning (format nil "~a: " outcome)))
+    (if (uiop:string-prefix-p beginning text)
+        (subseq text (length beginning))
+        text)))
+
 (defun simulation-cell (step before marked class)
   `(:td (:class ,class)
      (:div () ,(outcome-node step))
-     ,(and (key step "failure") `(:div (:class "message") ,(key step "failure")))
+     ,(and (key step "failure")
+           `(:div (:class "message") ,(failure-message (key step "failure") (key step "outcome"))))
      (:div (:class "changes") ,(change-nodes (changes before (texts (key step "state")))
                                              marked))))
 
@@ -77,13 +85,13 @@ of texts."
   "Return the sentences that tell what DIVERGENCE is."
   `(:div (:class "note")
      ,(if (string= (key divergence "kind") "outcome")
-          (format nil "The theory forbids this outcome~@[: ~a~]." (key divergence "failure"))
+          "The theory forbids this outcome."
           "The theory forbids the state after this step.")
      ,(loop for fluent across (key divergence "fluents")
             collect (destructuring-bind (text theory simulation) (coerce fluent 'list)
                       `(" " (:code () ,text)
-                            ,(format nil " is ~a in the theory and ~a in the simulation."
-                                     (string-downcase theory) (string-downcase simulation)))))))
+                            ,(format nil " is ~(~a~) in the theory, ~(~a~) in the simulation."
+                                     theory simulation))))))
 
 (defun diverging-fluents (divergence)
   (and divergence
