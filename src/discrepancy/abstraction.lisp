@@ -15,7 +15,11 @@
    (observers :initarg :observers :reader domain-observers :type list
               :documentation "Placements, joint ranges, attachments and computed observers.")
    (file :initarg :file :initform nil :reader domain-file
-         :documentation "The file that defines the domain, as a string, or NIL."))
+         :documentation "The file that defines the domain, as a string, or NIL.")
+   (extended-files :initarg :extended-files :initform '() :reader domain-extended-files
+                   :documentation "The files of the domains that it extends.")
+   (clauses :initarg :clauses :initform '() :reader domain-clauses
+            :documentation "The clauses of regions and observers, for domains that extend it."))
   (:documentation "A theory, a scene, the abstraction between them, and action bindings."))
 
 (defmethod symbolic:region-of-pose ((domain domain) pose &optional sort)
@@ -25,6 +29,12 @@
           when (and (or (null sort) (member (region-name region) elements))
                     (inside-region-p pose region))
             return (region-name region))))
+
+(defun domain-files (domain)
+  "Return the list of the names of the files that DOMAIN, what it extends and its theory were read
+from."
+  (remove nil (append (list (domain-file domain)) (domain-extended-files domain)
+                      (ec:theory-files (symbolic:action-theory-theory domain)))))
 
 (defun domain-with-parameters (domain parameters)
   "Return DOMAIN with the scene parameters in PARAMETERS, a property list of names and reals,
@@ -37,7 +47,8 @@ changed.  Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
                      :documentation (domain-documentation domain)
                      :scene (projection:scene-with-parameters (domain-scene domain) parameters)
                      :regions (domain-regions domain) :observers (domain-observers domain)
-                     :file (domain-file domain))
+                     :file (domain-file domain)
+                     :extended-files (domain-extended-files domain) :clauses (domain-clauses domain))
       domain))
 
 (defun discrete-state (domain projection)

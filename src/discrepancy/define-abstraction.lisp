@@ -7,22 +7,30 @@
                           (merge-pathnames (source:native-path file) directory)
                           file)))
 
+(defun clauses-of (key clauses)
+  (remove key clauses :key #'first :test-not #'eq))
+
 (defun check-clauses (name clauses)
   (dolist (clause clauses)
     (unless (and (consp clause)
-                 (member (first clause) '(:theory :scene :region :placement :joint :attachment
-                                          :computed)))
-      (abstraction-problem name nil "~a was found where one of :theory, :scene, :region, ~
-                                     :placement, :joint, :attachment, :computed was expected"
+                 (member (first clause) '(:extends :items :theory :scene :region :placement :joint
+                                          :attachment :computed)))
+      (abstraction-problem name nil "~a was found where one of :extends, :items, :theory, :scene, ~
+                                     :region, :placement, :joint, :attachment, :computed was ~
+                                     expected"
                            (ec:formula-text (if (consp clause) (first clause) clause)))))
-  (dolist (key '(:theory :scene))
-    (unless (= (count key clauses :key #'first) 1)
-      (abstraction-problem name nil "exactly one clause (~(~s~) ...) is needed" key)))
-  (let ((theory (second (assoc :theory clauses))))
-    (unless (or (stringp theory) (and theory (symbolp theory)))
-      (abstraction-problem name (assoc :theory clauses) "a name or a file name was expected")))
-  (unless (stringp (second (assoc :scene clauses)))
-    (abstraction-problem name (assoc :scene clauses) "a file name was expected"))
+  (dolist (key '(:extends :items))
+    (when (rest (clauses-of key clauses))
+      (abstraction-problem name nil "there are two clauses (~(~s~) ...)" key)))
+  (loop for (key type expected) in '((:theory (or symbol string) "a name or a file name")
+                                     (:scene string "a file name"))
+        for found = (clauses-of key clauses)
+        do (unless (or (= (length found) 1)
+                       (and (null found) (clauses-of :extends clauses)))
+             (abstraction-problem name nil "exactly one clause (~(~s~) ...) is needed" key))
+           (dolist (clause found)
+             (unless (and (second clause) (typep (second clause) type))
+               (abstraction-problem name clause "~a was expected" expected))))
   (let ((names (loop for (key subject) in clauses
                      when (and (eq key :region) (symbolp subject))
                        collect (ec:name-keyword subject))))
@@ -65,28 +73,52 @@
     (check-once name (observed-atoms observers) #'ec:atom-text)
     observers))
 
+(defun clause-theory (clause file extended)
+  "Return the theory that CLAUSE, (:theory NAME-or-\"file\"), means; NIL means that of EXTENDED."
+  (let ((theory (second clause)))
+    (cond ((null clause) (symbolic:action-theory-theory extended))
+          ((stringp theory) (ec:load-theory (relative-file theory file)))
+          (t (ec:find-theory theory)))))
+
+(defun clause-scene (clause file extended)
+  "Return the scene that CLAUSE, (:scene \"file\"), means; NIL means that of EXTENDED."
+  (if clause
+      (projection:load-scene (relative-file (second clause) file))
+      (domain-scene extended)))
+
 (defun parse-abstraction (name clauses &key file)
   "Return the domain NAME that CLAUSES describe; file names in them are relative to FILE."
   (let ((documentation (and (stringp (first clauses)) (pop clauses))))
     (check-clauses name clauses)
-    (flet ((clauses (key) (remove key clauses :key #'first :test-not #'eq)))
-      (let* ((theory-name (second (first (clauses :theory))))
-             (theory (if (stringp theory-name)
-                         (ec:load-theory (relative-file theory-name file))
-                         (ec:find-theory theory-name)))
-             (scene (projection:load-scene
-                     (relative-file (second (first (clauses :scene))) file)))
-             (regions (mapcar (lambda (clause) (parse-region name clause)) (clauses :region))))
-        (make-instance
-         'domain
-         :name (ec:name-keyword name) :documentation documentation :theory theory :scene scene
-         :regions regions :file (and file (source:native-name file))
-         :observers (parse-observers name clauses theory scene regions))))))
+    (let* ((extended (extended-domain name (first (clauses-of :extends clauses)) file))
+           (theory (clause-theory (first (clauses-of :theory clauses)) file extended))
+           (scene (scene-of-items
+                   name (first (clauses-of :items clauses))
+                   (clause-scene (first (clauses-of :scene clauses)) file extended)))
+           (clauses (remove-if (lambda (clause)
+                                 (member (first clause) '(:extends :items :theory :scene)))
+                               clauses))
+           (clauses (if extended
+                        (append (inherited-clauses extended clauses theory scene) clauses)
+                        clauses))
+           (regions (mapcar (lambda (clause) (parse-region name clause))
+                            (clauses-of :region clauses))))
+      (make-instance
+       'domain
+       :name (ec:name-keyword name) :documentation documentation :theory theory :scene scene
+       :regions regions :file (and file (source:native-name file)) :clauses clauses
+       :extended-files (and extended (remove nil (cons (domain-file extended)
+                                                       (domain-extended-files extended))))
+       :actions (and extended (copy-list (symbolic:action-theory-actions extended)))
+       :observers (parse-observers name clauses theory scene regions)))))
 
 (defmacro define-abstraction (name &body clauses)
   "Define the domain NAME.  CLAUSES are an optional documentation string and
+  (:extends NAME-or-\"file\")  another domain, whose theory, scene, regions, observers and action
+                              bindings this one has where it gives no others
   (:theory NAME-or-\"file\")   the theory
   (:scene \"file\")            the scene
+  (:items NAME*)              the scene's items that are there; without it all are
   (:region NAME region)       where a region is one of (interval axis min max),
                               (box (axis min max)*), (polygon (x y)*) if convex, (union region*),
                               (intersection region*), (difference region region*),
@@ -110,6 +142,11 @@ are added by DEFINE-ACTION.  Signals ABSTRACTION-ERROR, THEORY-ERROR, SCENE-ERRO
   `(symbolic:register-action-theory
     (parse-abstraction ',name ',clauses :file *load-pathname*)))
 
+(defun domain-truename (domain)
+  "Return the true name of the file that defines DOMAIN, or NIL."
+  (and (typep domain 'domain) (domain-file domain)
+       (ignore-errors (truename (source:native-path (domain-file domain))))))
+
 (defun load-domain (file)
   "Load FILE, which defines a domain with DEFINE-ABSTRACTION and DEFINE-ACTION in the package
 DISCREPANCY-FINDER-USER, and return the domain.  Signals SOURCE-ERROR, which names file and line,
@@ -117,6 +154,8 @@ and what DEFINE-ABSTRACTION signals."
   (let ((before (symbolic:all-action-theories)))
     (source:load-source file :package '#:discrepancy-finder-user)
     (let ((new (set-difference (symbolic:all-action-theories) before)))
-      (or (first new)
+      ;; What the file extends may be new, too.
+      (or (find (truename (source:native-path file)) new :test #'equal :key #'domain-truename)
+          (first new)
           (error 'source:source-error :file (source:native-name file)
                                       :reason "it defines no domain (define-abstraction ...)")))))

@@ -23,9 +23,9 @@
 
 (defun source-files (plan domain)
   "Return the names of the files that the runs of PLAN in DOMAIN depend on."
-  (remove nil (list* (plan-file plan) (domain-file domain)
-                     (ec:theory-file (symbolic:action-theory-theory domain))
-                     (projection:scene-files (domain-scene domain)))))
+  (remove nil (cons (plan-file plan)
+                    (append (domain-files domain)
+                            (projection:scene-files (domain-scene domain))))))
 
 ;;; Writing
 

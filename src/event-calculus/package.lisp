@@ -8,7 +8,7 @@ them and why, and what they say of a state after known events.")
    ;; theories
    #:define-theory #:load-theory #:find-theory #:make-checked-theory #:register-theory
    #:theory #:theory-name #:theory-counts #:counts-text #:theory-documentation #:theory-syntax
-   #:theory-file
+   #:theory-file #:theory-files
    #:theory-sorts #:theory-predicates #:theory-extensions #:theory-functions
    #:theory-fluents #:theory-non-inertial
    #:theory-manual-release #:theory-events #:theory-axioms #:theory-completions

@@ -29,6 +29,36 @@
              ,@(and clause (list clause)))
       :file (root-file "models/two-regions/domain.lisp"))))
 
+(defun heir-of-two-regions (&rest clauses)
+  "Return the domain that extends that of Example 1 by CLAUSES."
+  (two-regions)
+  (discrepancy::parse-abstraction 'heir (cons '(:extends two-regions) clauses)))
+
+(test domains-extend-others
+  (let ((domain (heir-of-two-regions '(:region r1 (interval :x -1 1)))))
+    (is (eq :r1 (symbolic:region-of-pose domain (geometry:make-pose -0.5 0 0))))
+    (is (null (symbolic:region-of-pose (two-regions) (geometry:make-pose -0.5 0 0))))
+    (is (= (length (symbolic:action-theory-actions (two-regions)))
+           (length (symbolic:action-theory-actions domain))))
+    (is (equal (mapcar #'type-of (discrepancy::domain-observers (two-regions)))
+               (mapcar #'type-of (discrepancy::domain-observers domain))))
+    (is (equal (discrepancy::domain-files (two-regions)) (discrepancy::domain-files domain)))))
+
+(test domains-without-an-item
+  "What observes the item goes with it."
+  (let ((domain (heir-of-two-regions '(:items))))
+    (is (null (projection:scene-item-names (discrepancy:domain-scene domain))))
+    (is (equal '(:robot) (mapcar #'discrepancy::placement-body
+                                 (discrepancy::domain-observers domain))))
+    (is (equal '(:box) (projection:scene-item-names
+                        (discrepancy:domain-scene (two-regions))))))
+  (signals-with (discrepancy:abstraction-error "heir" "the scene has no item cup")
+    (heir-of-two-regions '(:items box cup)))
+  (signals-with (discrepancy:abstraction-error "heir" "two clauses")
+    (heir-of-two-regions '(:extends two-regions)))
+  (signals-with (symbolic:domain-not-found "no-such-domain")
+    (discrepancy::parse-abstraction 'heir '((:extends no-such-domain)))))
+
 (test malformed-abstractions-are-named
   (abstraction-problem-of (:region r3 (interval :x 1 1)) "r3" "no volume")
   (abstraction-problem-of (:region r3 (interval :x 5 4)) "r3" "no volume")

@@ -64,6 +64,40 @@
                (subseq (mapcar #'ec:axiom-name (ec:theory-axioms theory)) 0 3)))
     (always theory (not (holds-at (f x) 1)) (p))))
 
+;;; Leaving out what is extended
+
+(test what-is-left-out-can-be-declared-anew
+  (register 'lamps '(:sorts (lamp a b)) '(:fluents (lit lamp) (old)) '(:events (switch lamp))
+            '(:axioms (switching (initiates (switch ?lamp) (lit ?lamp) ?time))
+              (all-off (initially (not (lit ?lamp)))) (b-on (initially (lit b)))
+              (aging (initially (old)))))
+  (let ((theory (register 'one-lamp '(:extends lamps) '(:without lamp b-on all-off old aging)
+                          '(:sorts (lamp a)) '(:axioms (all-off (initially (lit ?lamp))))
+                          '(:time 0 0))))
+    (is (equal '(:a) (ec:sort-elements theory 'lamp)))
+    (is (equal '((:lit :lamp)) (ec:theory-fluents theory)))
+    (is (equal '(:switching :all-off) (mapcar #'ec:axiom-name (ec:theory-axioms theory))))
+    (always theory (holds-at (lit a) 0))))
+
+(test only-what-is-there-can-be-left-out
+  (register 'lamps '(:sorts (lamp a)))
+  (signals-with (ec:theory-error "dark" ":without" "lump")
+    (register 'dark '(:extends lamps) '(:without lump)))
+  (signals-with (ec:theory-error "dark" ":without" "lamp")
+    (register 'dark '(:without lamp))))
+
+(test theories-extend-files-and-inherit-state-constraints
+  (with-file (file "(define-theory base (:sorts (lamp a b)) (:fluents (lit lamp)))
+(define-state-constraint some-light (?time) (exists (?lamp) (holds-at (lit ?lamp) ?time)))")
+    (let ((theory (register 'heir (list :extends (namestring file)) '(:without lamp)
+                            '(:sorts (lamp c)))))
+      (is (equal (list (namestring file)) (ec:theory-files theory)))
+      (let ((constraint (ec:find-state-constraint 'some-light theory)))
+        (is (eq theory (ec:state-constraint-theory constraint)))
+        (is (eq :some-light (ec:state-constraint-name constraint))))))
+  (signals-with (ec:theory-error "heir" "there is no file \"no-such-file.lisp\"")
+    (register 'heir '(:extends "no-such-file.lisp"))))
+
 (test manual-release-and-non-inertia-are-inherited
   (register 'released '(:fluents (f) (g)) '(:manual-release f))
   (register 'all-released '(:fluents (h)) '(:manual-release t))

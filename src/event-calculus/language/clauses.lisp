@@ -204,15 +204,3 @@ are given as tables: ((name sort*) tuple*)."
                                            was expected"
                                           (written-text entry)))))
                clauses))
-
-(defun extended-theories (theory-name clauses)
-  (map-entries (lambda (entry)
-                 (unless (and entry (symbolp entry))
-                   (theory-problem theory-name ":extends" nil
-                                   "~a was found where the name of a theory was expected"
-                                   (written-text entry)))
-                 (handler-case (find-theory entry)
-                   (theory-not-found ()
-                     (theory-problem theory-name ":extends" nil "there is no theory named ~a"
-                                     (name-text entry)))))
-               clauses))

@@ -222,6 +222,8 @@ those of the theories EXTENDS come first.  Signals THEORY-ERROR if they do not f
            (or own (some reader extends))))
     (let ((theory
             (apply #'make-theory :allow-other-keys t
+                   :extended-files (remove-duplicates (mapcan #'theory-files extends)
+                                                      :test #'string= :from-end t)
                    :sorts (all #'theory-sorts sorts)
                    :predicates (all #'theory-predicates predicates)
                    :extensions (all #'theory-extensions extensions)

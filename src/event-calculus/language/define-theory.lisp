@@ -9,7 +9,7 @@
 
 (defparameter *clauses*
   '(:sorts :predicates :functions :fluents :non-inertial-fluents :manual-release :events :axioms
-    :numeric-fluents :facts :narrative :completion :mutex :xor :time :offset :extends)
+    :numeric-fluents :facts :narrative :completion :mutex :xor :time :offset :extends :without)
   "The keywords that begin the clauses of a theory.")
 
 ;;; Axioms
@@ -114,7 +114,9 @@ theories EXTENDED."
                    (with-place ((first (option key)))
                      (range-of name (format nil "~(~s~)" key) (entries-of (option key))
                                (entries-of (option key)))))))
-        (let* ((extended (extended-theories name (option :extends)))
+        (let* ((whole (extended-theories name (option :extends)))
+               (without (without-names name (option :without) whole))
+               (extended (mapcar (lambda (theory) (theory-without theory without)) whole))
                (predicates (multiple-value-list
                             (predicate-declarations name (option :predicates))))
                (unary (unary-predicates (first predicates) extended))
@@ -128,23 +130,25 @@ theories EXTENDED."
                                         unary))
                (manual-release (name-declarations name ":manual-release"
                                                   (option :manual-release) "fluent")))
-          (make-checked-theory
-           :name name :documentation documentation :file file
-           :extends extended
-           :sorts (map-entries (lambda (entry) (sort-declaration name entry)) (option :sorts))
-           :predicates (first predicates) :extensions (second predicates)
-           :functions (function-declarations name (option :functions))
-           :fluents (own-fluents name (symbols :fluents) non-inertial)
-           :numeric-fluents (symbols :numeric-fluents)
-           :non-inertial (mapcar #'first non-inertial)
-           :manual-release (or (and (member :t manual-release) t) manual-release)
-           :events (symbols :events)
-           :axioms (append axioms facts narrative)
-           :completions (completion-declarations name (option :completion))
-           :exclusions (loop for key in '(:mutex :xor)
-                             append (exclusion-declarations name key (option key)))
-           :time-range (range :time)
-           :offset-range (range :offset)))))))
+          (inherit-state-constraints
+           (make-checked-theory
+            :name name :documentation documentation :file file
+            :extends extended
+            :sorts (map-entries (lambda (entry) (sort-declaration name entry)) (option :sorts))
+            :predicates (first predicates) :extensions (second predicates)
+            :functions (function-declarations name (option :functions))
+            :fluents (own-fluents name (symbols :fluents) non-inertial)
+            :numeric-fluents (symbols :numeric-fluents)
+            :non-inertial (mapcar #'first non-inertial)
+            :manual-release (or (and (member :t manual-release) t) manual-release)
+            :events (symbols :events)
+            :axioms (append axioms facts narrative)
+            :completions (completion-declarations name (option :completion))
+            :exclusions (loop for key in '(:mutex :xor)
+                              append (exclusion-declarations name key (option key)))
+            :time-range (range :time)
+            :offset-range (range :offset))
+           extended))))))
 
 (defmacro define-theory (&whole form name &body clauses)
   "Define the theory NAME.  CLAUSES are an optional documentation string and any number of
@@ -155,7 +159,7 @@ theories EXTENDED."
   (:axioms axiom*), (:facts axiom*), (:narrative axiom*),
   (:completion predicate-or-(label predicate)*), (:mutex (name*)*),
   (:xor (name*)*), (:manual-release name*), (:time first last), (:offset low high),
-  (:extends theory*).
+  (:extends theory-or-\"file\"*), (:without name*).
 An axiom is a formula, (name formula) or (name :label label formula).  Variables are named by their
 sort, ?region1, and universally quantified where free; ?time is a timepoint.  docs/theories.md has
 the formulas.  Signals THEORY-ERROR when evaluated."
@@ -165,7 +169,8 @@ the formulas.  Signals THEORY-ERROR when evaluated."
   "Read FILE, which holds one DEFINE-THEORY form and any number of DEFINE-STATE-CONSTRAINT forms,
 define them, and return the theory.  Nothing in the file is evaluated.  Signals SOURCE-ERROR and
 THEORY-ERROR, which name file and line."
-  (let ((theory nil))
+  (let ((theory nil)
+        (*theory-file* (source:native-path (source:native-name file))))
     (dolist (form (source:read-source file :package '#:discrepancy-finder.event-calculus) theory)
       (let ((operator (and (consp form) (symbolp (first form)) (name-keyword (first form))))
             (position (or (place-of form)

@@ -37,6 +37,7 @@ completed.")
   (documentation nil :type (or null string) :read-only t)
   (syntax :lisp :type (member :lisp :e) :read-only t)
   (file nil :type (or null string) :read-only t)
+  (extended-files '() :type list :read-only t)
   (sorts '() :type list :read-only t)
   (predicates '() :type list :read-only t)
   (extensions '() :type list :read-only t)
@@ -101,6 +102,10 @@ all axioms."
       (documentation 'theory-state-constraints 'function)
       "Return the list of the state constraints of a theory.")
 
+(defun theory-files (theory)
+  "Return the list of the names of the files that THEORY and what it extends were read from."
+  (remove nil (cons (theory-file theory) (theory-extended-files theory))))
+
 (defun theory-counts (theory)
   "Return the size of THEORY: the list of the numbers of its sorts, predicates of its own, fluents,
 events and axioms."
@@ -118,6 +123,9 @@ its own are left out where there are none."
 (defmethod print-object ((theory theory) stream)
   (print-unreadable-object (theory stream :type t)
     (format stream "~a: ~a" (name-text (theory-name theory)) (counts-text theory))))
+
+(defvar *theory-file* nil
+  "The path of the theory's file that is being read, or NIL: names of others are relative to it.")
 
 (defvar *theories* (make-hash-table :test 'eq)
   "The theory of each name, a keyword.")

@@ -43,7 +43,7 @@ low high documentation), DRAWN a property list of those tolerances' values that 
   (name nil :type keyword :read-only t)
   (documentation nil :type (or null string) :read-only t)
   (file "" :type string :read-only t)
-  (parts '() :type list :read-only t)
+  (parts '() :type list)
   (materials '() :type list :read-only t)
   (parameters '() :type list)
   (tolerances '() :type list :read-only t)
@@ -148,6 +148,16 @@ its range.  Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
     copy))
 
 ;;; Parts
+
+(defun scene-with-items (scene items)
+  "Return SCENE without the items that are not in the list ITEMS of their names, keywords."
+  (let ((copy (%copy-scene scene)))
+    (setf (scene-parts copy)
+          (remove-if (lambda (part)
+                       (and (eq (scene-part-kind part) :item)
+                            (not (member (scene-part-name part) items))))
+                     (scene-parts scene)))
+    copy))
 
 (defun scene-part (scene name)
   "Return the part NAME, a symbol, of SCENE.  Signals UNKNOWN-BODY."
