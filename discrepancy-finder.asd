@@ -340,7 +340,8 @@ The environment variable CXX names another compiler than g++."))
   :pathname "src/report/"
   :serial t
   :components ((:file "package") (:file "html") (:file "style") (:file "shots") (:file "sheet")
-               (:file "regions") (:file "map") (:file "strips") (:file "timeline")
+               (:file "regions") (:file "labels") (:file "map") (:file "strips")
+               (:file "timeline")
                (:file "page")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"

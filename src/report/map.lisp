@@ -103,19 +103,37 @@ with their colours."
   (destructuring-bind ((x y) (x0 y0) (x1 y1)) (list point (sheet-low sheet) (sheet-high sheet))
     (and (< x0 x x1) (< y0 y y1))))
 
-(defun fixture-label-nodes (sheet outlines)
+(defun fixture-labels (sheet outlines)
   (loop for (name low high) in (outlines-named outlines :fixture)
         for (x y) = (middle low high)
         when (and name (visible-point-p sheet (list x y)))
-          collect (text-node sheet x y (string-downcase name)
-                             :class "fixture" "text-anchor" "middle")))
+          collect (make-label (pixel-x sheet x) (pixel-y sheet y) (string-downcase name)
+                              "fixture" "middle")))
 
-(defun item-label-nodes (sheet outlines)
+(defun item-labels (sheet outlines)
   (loop for (name low high) in (outlines-named outlines :item)
-        for x = (/ (+ (first low) (first high)) 2)
-        collect (text-node sheet x (+ (second high) (/ 6 (sheet-scale sheet)))
-                           (string-downcase name)
-                           :class "item" "text-anchor" "middle")))
+        collect (make-label (pixel-x sheet (/ (+ (first low) (first high)) 2))
+                            (- (pixel-y sheet (second high)) 6)
+                            (string-downcase name) "item" "middle")))
+
+(defun item-obstacles (sheet outlines)
+  "Return the places of items where no label is to be, as LABEL-NODES takes them."
+  (loop for (nil low high) in (outlines-named outlines :item)
+        for (x y) = (middle low high)
+        collect (list (- (pixel-x sheet x) 6) (+ (pixel-x sheet x) 6) (+ 5 (pixel-y sheet y)))))
+
+(defun moved-fixtures (before after)
+  "Return those of the outlines AFTER of fixtures that are none BEFORE: drawers that were opened."
+  (flet ((same-p (one other)
+           (and (eq (second one) (second other))
+                (= (length (third one)) (length (third other)))
+                (every (lambda (point other-point)
+                         (every (lambda (a b) (< (abs (- a b)) 1d-3)) point other-point))
+                       (third one) (third other)))))
+    (loop for outline in after
+          when (and (eq (first outline) :fixture)
+                    (notany (lambda (other) (same-p outline other)) before))
+            collect outline)))
 
 ;;; Regions
 
@@ -126,32 +144,24 @@ with their colours."
     (remove-if-not (lambda (region) (member (discrepancy:region-name region) named))
                    (discrepancy:domain-regions domain))))
 
-(defun label-place (sheet points taken)
-  "Return the pixels x and y for a label in the upper left corner of POINTS that is not on one of
-the places TAKEN."
-  (multiple-value-bind (low high) (points-bounds points)
-    (let ((x (+ 6 (pixel-x sheet (first low)))) (y (+ 15 (pixel-y sheet (second high)))))
-      (loop while (find-if (lambda (place)
-                             (and (< (abs (- x (first place))) 90)
-                                  (< (abs (- y (second place))) 14)))
-                           taken)
-            do (incf y 15))
-      (list x y))))
-
 (defun region-nodes (sheet regions)
-  (let ((taken '()) (shapes '()) (labels '()))
-    (dolist (region regions (list (nreverse shapes) (nreverse labels)))
-      (let ((polygons (region-polygons region (sheet-low sheet) (sheet-high sheet))))
-        (loop for (kind . points) in polygons
-              do (push (polygon-node sheet points
-                                     :class (format nil "region ~(~a~)" kind))
-                       shapes))
-        (when polygons
-          (let ((place (label-place sheet (rest (first polygons)) taken)))
-            (push place taken)
-            (push `(:text (:x ,(first place) :y ,(second place) :class "region-name")
-                          ,(string-downcase (discrepancy:region-name region)))
-                  labels)))))))
+  "Return the polygons of REGIONS."
+  (loop for region in regions
+        append (loop for (kind . points) in (region-polygons region (sheet-low sheet)
+                                                             (sheet-high sheet))
+                     collect (polygon-node sheet points
+                                           :class (format nil "region ~(~a~)" kind)))))
+
+(defun region-labels (sheet regions)
+  "Return the names of REGIONS, each in the upper left corner of its polygon."
+  (loop for region in regions
+        for ((nil . points)) = (region-polygons region (sheet-low sheet) (sheet-high sheet))
+        when points
+          collect (multiple-value-bind (low high) (points-bounds points)
+                    (make-label (+ 6 (pixel-x sheet (first low)))
+                                (+ 14 (pixel-y sheet (second high)))
+                                (string-downcase (discrepancy:region-name region))
+                                "region-name" "start"))))
 
 ;;; Paths
 
@@ -179,28 +189,37 @@ the places TAKEN."
     (loop for (place . numbers) in groups collect (cons place (reverse numbers)))))
 
 (defun numbers-text (numbers)
-  "Return NUMBERS, ascending integers, as a text in which ranges are written as such."
+  "Return NUMBERS, ascending integers, as a text in which ranges are written as such; of more than
+four ranges some in the middle are left out."
   (let ((ranges '()))
     (dolist (number numbers)
       (if (and ranges (= number (1+ (cdr (first ranges)))))
           (setf (cdr (first ranges)) number)
           (push (cons number number) ranges)))
-    (format nil "~{~a~^, ~}"
-            (loop for (from . to) in (reverse ranges)
-                  collect (if (= from to) (format nil "~d" from) (format nil "~d–~d" from to))))))
+    (let ((texts (loop for (from . to) in (reverse ranges)
+                       collect (if (= from to)
+                                   (format nil "~d" from)
+                                   (format nil "~d–~d" from to)))))
+      (format nil "~{~a~^, ~}"
+              (if (> (length texts) 4)
+                  (append (subseq texts 0 2) '("…") (last texts))
+                  texts)))))
 
 (defun stop-nodes (sheet stops diverging)
-  "Return the numbers of the steps at the places of the base after them; the last is DIVERGING or
-none is."
+  "Return marks at the places of the base in STOPS; that of step DIVERGING, if any, stands out."
   (loop for ((x y) . numbers) in (grouped-stops sheet stops)
-        for here = (and diverging (member diverging numbers))
-        for text = (numbers-text (if (> (length numbers) 12)
-                                     (append (subseq numbers 0 8) (last numbers 2))
-                                     numbers))
-        collect `(:circle (:cx ,x :cy ,y :r 4 :class ,(if here "stop diverging" "stop")))
-        collect `(:text (:x ,x :y ,(+ y 18) "text-anchor" "middle"
-                         :class ,(if here "stop-number diverging" "stop-number"))
-                        ,text)))
+        collect `(:circle (:cx ,x :cy ,y :r 4 :class ,(if (member diverging numbers)
+                                                          "stop diverging"
+                                                          "stop")))))
+
+(defun stop-labels (sheet stops diverging)
+  "Return the numbers of the steps at the places of the base in STOPS."
+  (loop for ((x y) . numbers) in (grouped-stops sheet stops)
+        collect (make-label x (+ y 18) (numbers-text numbers)
+                            (if (member diverging numbers)
+                                "stop-number diverging"
+                                "stop-number")
+                            "middle")))
 
 ;;; The whole
 
@@ -247,34 +266,44 @@ number of the step at which it parts from the theory, counted from 1, or NIL."
                        append (trail-points (shot-trail shot)))))
     (multiple-value-bind (low high) (map-bounds (append outlines (shot-after main)) points)
       (let* ((sheet (fitting-sheet low high *map-width* *map-height*))
-             (width (sheet-width sheet)) (height (sheet-height sheet)))
-        (destructuring-bind ((lines numbers) (shapes labels))
-            (list (grid-nodes sheet) (region-nodes sheet (regions-of-trace domain trace)))
-          `(:svg (:class "map" :role "img"
-                  :aria-label "Top view of the scene with regions, samples and paths"
-                  :width ,(round (+ width *gutter*)) :height ,(round (+ height 22))
-                  "viewBox" ,(format nil "~d 0 ~,1f ~,1f" (- *gutter*) (+ width *gutter*)
-                                     (+ height 22)))
-                 (:g () ,numbers)
-                 (:svg (:width ,width :height ,height)
-                 (:rect (:width ,width :height ,height :class "ground"))
-                 (:g () ,lines)
-                 (:g () ,(outline-nodes sheet outlines '(:fixture) "fixture-outline")
-                        ,(outline-nodes sheet outlines '(:wall) "wall-outline"))
-                 (:g () ,shapes)
-                 (:g () ,(fixture-label-nodes sheet outlines))
-                 (:g () ,(outline-nodes sheet outlines '(:robot) "robot-outline")
-                        ,(item-nodes sheet outlines "before"))
-                 (:g () ,(loop for shot in (rest shots)
-                               collect (trail-node sheet (shot-trail shot) "trail")))
-                 (:g () ,(largest-outline-node sheet (shot-after main) :robot "robot-after")
-                        ,(item-nodes sheet (shot-after main) "after"))
-                 (:g () ,(trail-node sheet (shot-trail main)
-                                     (if diverging "trail failing" "trail main"))
-                        ,(stop-nodes sheet (shot-stops main) diverging))
-                 (:g () ,(loop for shot in (reverse shots)
-                               collect (sample-nodes sheet scene (shot-sample shot)
-                                                     (shot-verdict shot))))
-                 (:g () ,labels ,(item-label-nodes sheet outlines)))
-                 (:rect (:x 0.5 :y 0.5 :width ,(- width 1) :height ,(- height 1)
-                         :class "frame"))))))))
+             (regions (regions-of-trace domain trace)))
+        (framed-map sheet
+                    (list
+                     (first (grid-nodes sheet))
+                     (outline-nodes sheet outlines '(:fixture) "fixture-outline")
+                     (outline-nodes sheet outlines '(:wall) "wall-outline")
+                     (region-nodes sheet regions)
+                     (outline-nodes sheet outlines '(:robot) "robot-outline")
+                     (item-nodes sheet outlines "before")
+                     (loop for shot in (rest shots)
+                           collect (trail-node sheet (shot-trail shot) "trail"))
+                     (outline-nodes sheet (moved-fixtures outlines (shot-after main))
+                                    '(:fixture) "robot-after")
+                     (largest-outline-node sheet (shot-after main) :robot "robot-after")
+                     (item-nodes sheet (shot-after main) "after")
+                     (trail-node sheet (shot-trail main)
+                                 (if diverging "trail failing" "trail main"))
+                     (stop-nodes sheet (shot-stops main) diverging)
+                     (loop for shot in (reverse shots)
+                           collect (sample-nodes sheet scene (shot-sample shot)
+                                                 (shot-verdict shot)))
+                     (label-nodes (append (item-labels sheet outlines)
+                                          (stop-labels sheet (shot-stops main) diverging)
+                                          (region-labels sheet regions)
+                                          (fixture-labels sheet outlines))
+                                  (sheet-height sheet)
+                                  (item-obstacles sheet outlines))))))))
+
+(defun framed-map (sheet layers)
+  "Return the map with LAYERS, the lowest first, on SHEET, with numbers at its left and lower edge."
+  (let ((width (sheet-width sheet)) (height (sheet-height sheet)))
+    `(:svg (:class "map" :role "img"
+            :aria-label "Top view of the scene with regions, samples and paths"
+            :width ,(round (+ width *gutter*)) :height ,(round (+ height 22))
+            "viewBox" ,(format nil "~d 0 ~,1f ~,1f" (- *gutter*) (+ width *gutter*)
+                               (+ height 22)))
+       ,(second (grid-nodes sheet))
+       (:svg (:width ,width :height ,height)
+         (:rect (:width ,width :height ,height :class "ground"))
+         ,(loop for layer in layers collect `(:g () ,layer)))
+       (:rect (:x 0.5 :y 0.5 :width ,(- width 1) :height ,(- height 1) :class "frame")))))

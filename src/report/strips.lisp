@@ -54,7 +54,7 @@ verdict); the values of the first sample are told as numbers if it failed."
                   `(:tr ()
                      (:td () (:code () ,name)
                         ,(and (stringp (key parameter "meaning"))
-                              `(:div (:class "meaning") ,(key parameter "meaning"))))
+                              `(:span (:class "meaning") " " ,(key parameter "meaning"))))
                      (:td (:class "number") ,(number-with-unit min unit))
                      (:td ()
                        ,(strip-node (loop for (sample verdict) in samples

@@ -43,7 +43,7 @@ table.facts { width: auto }
 table.facts th { border-bottom: 1px solid var(--line); font-weight: 500; padding-left: 0;
                  vertical-align: top; padding-top: 8px; white-space: nowrap }
 table.strips { width: auto }
-table.strips td { vertical-align: middle; padding: 3px 10px }
+table.strips td { vertical-align: middle; padding: 2px 10px; font-size: 14px }
 table.states { width: auto; min-width: 420px }
 table.states td { padding: 3px 10px }
 .is-true { color: var(--text) }
@@ -52,7 +52,9 @@ tr.differs td { background: #fdecea; font-weight: 600 }
 .timeline .action { font-weight: 650 }
 .timeline .designator { color: var(--quiet); overflow-wrap: anywhere; font-size: 12px }
 .timeline td { font-size: 14px }
-.timeline td:nth-child(2) { width: 38% }
+.timeline td:nth-child(2) { width: 33% }
+.timeline td:nth-child(3) { width: 38% }
+.hidden { color: var(--quiet); font-size: 12px; margin-top: 2px }
 .timeline .message { font-size: 13px; margin-top: 2px }
 .changes { margin-top: 4px; font-size: 13px }
 .chip { display: inline-block; padding: 0 6px; margin: 1px 0; border-radius: 4px;

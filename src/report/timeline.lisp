@@ -50,7 +50,7 @@ of texts."
                                              (member fluent marked :test #'string=)))
                             ,sign " " ,fluent)
             collect " ")
-      '((:span (:class "quiet") "no change"))))
+      nil))
 
 (defun outcome-node (step)
   (let ((outcome (key step "outcome")))
@@ -60,11 +60,26 @@ of texts."
 
 ;;; Rows
 
-(defun theory-cell (step before marked)
-  `(:td () (:div () (:code () ,(or (key step "event") "nothing happens")) " · "
-              ,(outcome-node step))
-          (:div (:class "changes") ,(change-nodes (changes before (texts (key step "state")))
-                                                  marked))))
+(defun hidden-changes-node (changes)
+  "Return a line that tells CHANGES of fluents that cannot be observed."
+  (and changes
+       `(:div (:class "hidden")
+          "not observed: "
+          ,(format nil "~:{~a ~a~:^, ~}" (loop for (sign . fluent) in changes
+                                               collect (list sign fluent))))))
+
+(defun theory-cell (step before marked observable)
+  "Return the cell that tells STEP of the theory; OBSERVABLE are the fluents that can be observed, or
+:ALL."
+  (let* ((changes (changes before (texts (key step "state"))))
+         (seen (remove-if-not (lambda (change)
+                                (or (eq observable :all)
+                                    (member (cdr change) observable :test #'string=)))
+                              changes)))
+    `(:td () (:div () (:code () ,(or (key step "event") "nothing happens")) " · "
+                ,(outcome-node step))
+            (:div (:class "changes") ,(change-nodes seen marked))
+            ,(hidden-changes-node (set-difference changes seen)))))
 
 (defun failure-message (text outcome)
   "Return TEXT, which tells a failure, without the name of its class OUTCOME at the beginning."
@@ -97,16 +112,19 @@ of texts."
   (and divergence
        (loop for fluent across (key divergence "fluents") collect (svref fluent 0))))
 
-(defun row-node (number theory simulation before divergence ran)
+(defun row-node (number theory simulation before divergence observable)
   "Return the row of step NUMBER.  BEFORE are the states before it, lists of texts, in theory and
-simulation; THEORY and SIMULATION the step there, or NIL; RAN is true if there was a simulation."
+simulation; THEORY and SIMULATION the step there, or NIL; OBSERVABLE the fluents that the simulation
+shows, or :ALL if there was none."
   (let* ((here (and divergence (= number (key divergence "step"))))
+         (ran (listp observable))
          (marked (and here (diverging-fluents divergence))))
-    `((:tr (:class ,(cond (here "diverging") ((and ran (null simulation)) "not-run")))
+    `((:tr (:id ,(and here (format nil "step-~d" number))
+            :class ,(cond (here "diverging") ((and ran (null simulation)) "not-run")))
         (:td (:class "number") ,number)
         (:td () ,(step-name-node (or theory simulation)))
         ,(if theory
-             (theory-cell theory (first before) marked)
+             (theory-cell theory (first before) marked observable)
              '(:td (:class "quiet") "not in the trace"))
         ,(cond (simulation (simulation-cell simulation (second before) marked
                                             (if here "parting" "agreeing")))
@@ -138,7 +156,10 @@ DIVERGENCE may be NIL."
                                   (and simulated (svref simulation-steps (1- number)))
                                   (list (and in-theory (state-after theory (1- number)))
                                         (and simulated (state-after simulation (1- number))))
-                                  divergence (and simulation t)))))))
+                                  divergence
+                                  (if simulation
+                                      (texts (key simulation "observable"))
+                                      :all)))))))
 
 ;;; States side by side
 
