@@ -130,7 +130,8 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "names") (:file "sorts") (:file "theory") (:file "terms")
                              (:file "formula") (:file "axioms") (:file "declarations")
                              (:file "clauses") (:file "state-constraints")
-                             (:file "extending") (:file "define-theory") (:file "foundations")))
+                             (:file "extending") (:file "define-theory") (:file "foundations")
+                             (:file "variants")))
                (:module "grounding"
                 :serial t
                 :components ((:file "ground-theory") (:file "compiler") (:file "numeric")
@@ -152,7 +153,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "states") (:file "initial-states") (:file "resolve")
                              (:file "trajectories") (:file "numbers") (:file "turns")
                              (:file "successors") (:file "progress")
-                             (:file "footprints")))
+                             (:file "footprints") (:file "windows")))
                (:module "e-files"
                 :serial t
                 :components ((:file "conditions") (:file "tokens") (:file "expressions")
@@ -330,9 +331,15 @@ The environment variable CXX names another compiler than g++."))
                (:file "random") (:file "samplers") (:file "regions") (:file "observers")
                (:file "abstraction") (:file "parsing") (:file "parsing-observers")
                (:file "extending") (:file "define-abstraction")
-               (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
+               (:file "catalog") (:file "sampling") (:file "actions") (:file "execution")
+               (:file "judgement") (:file "comparisons")
                (:file "results") (:file "search") (:file "report") (:file "scene-runs")
-               (:file "replay") (:file "replay-file") (:file "result-json")))
+               (:file "replay") (:file "replay-file")
+               (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
+               (:file "explain-text")
+               (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
+               (:file "boundary") (:file "shrink")
+               (:file "result-json")))
 
 (asdf:defsystem "discrepancy-finder/report"
   :description "Results of searches as pages for a browser."
@@ -430,7 +437,7 @@ The environment variable CXX names another compiler than g++."))
                (:module "discrepancy"
                 :serial t
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
-                             (:file "regions") (:file "search")
+                             (:file "regions") (:file "search") (:file "judgement")
                              (:file "replay")
                              (:file "table-top") (:file "tolerances")))
                (:module "kitchen" :pathname "projection/" :serial t

@@ -8,6 +8,7 @@ search, replay.")
                     (#:symbolic #:discrepancy-finder.symbolic-execution)
                     (#:projection #:discrepancy-finder.projection)
                     (#:source #:discrepancy-finder.source)
+                    (#:desig #:discrepancy-finder.designators)
                     (#:json #:discrepancy-finder.json)
                     (#:foreign #:discrepancy-finder.foreign))
   (:import-from #:discrepancy-finder.symbolic-execution #:next-trace)
@@ -32,6 +33,15 @@ search, replay.")
    #:run-in-scene #:scene-run #:scene-run-ending #:scene-run-hash #:scene-run-text
    #:judge-run #:judgement #:judgement-verdict #:judgement-divergence
    #:divergence #:divergence-step #:divergence-fluents #:divergence-kind
+   #:judgement-comparison
+   ;; comparisons, step by step
+   #:step-comparisons #:step-comparison #:step-comparison-number #:step-comparison-step
+   #:step-comparison-verdict #:step-comparison-theory #:step-comparison-fluents
+   ;; explanations
+   #:explain-discrepancy #:explanation #:explanation-text #:explanation-json
+   #:explanation-step #:explanation-grounds #:explanation-influences #:explanation-edits
+   #:explanation-probes
+   #:influence #:influence-parameters #:influence-failing #:influence-agreeing
    ;; search
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-discrepancy
    #:result-discrepancies #:result-traces #:result-simulations #:result-iterations #:result-seed
@@ -50,6 +60,12 @@ search, replay.")
    #:result-json #:result-plan #:result-domain #:result-constraint #:result-rule-name
    #:result-confidence #:result-parameters #:trace-result-discrepancies #:sample-poses
    #:sample-joints #:sample-parameters #:write-file-whole #:discrepancy-domain #:discrepancy-execution
+   ;; shrinking
+   #:shrink-discrepancy #:shrinking #:shrinking-discrepancy #:shrinking-original
+   #:shrinking-boundary #:shrinking-runs #:shrinking-seconds #:shrinking-exhausted
+   #:shrinking-text #:shrinking-json #:boundary #:boundary-parameter #:boundary-failing
+   #:boundary-passing #:boundary-text #:run-case
+   #:recorded-action #:recorded-action-text #:discrepancy-actions #:discrepancy-left-out
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy

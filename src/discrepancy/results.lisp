@@ -13,6 +13,8 @@
   (seed 0 :type (unsigned-byte 64) :read-only t)
   (trace nil :read-only t)
   (sample nil :read-only t)
+  (actions '() :type list :read-only t)
+  (left-out '() :type list :read-only t)
   (run nil :read-only t)
   (judgement nil :read-only t)
   (confirmed-p nil :type boolean :read-only t)
@@ -28,6 +30,12 @@
       "Return the execution trace."
       (documentation 'discrepancy-sample 'function)
       "Return the sample from which the simulation does what the theory does not allow."
+      (documentation 'discrepancy-actions 'function)
+      "Return the list of the RECORDED-ACTIONs that a run performs in the place of the plan, or NIL:
+the plan is run.  A discrepancy that was shrunk has some."
+      (documentation 'discrepancy-left-out 'function)
+      "Return the names (keywords) of the scene's items that the world of a shrunk discrepancy does
+not have."
       (documentation 'discrepancy-run 'function)
       "Return the run of that sample."
       (documentation 'discrepancy-judgement 'function)
