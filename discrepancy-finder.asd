@@ -131,7 +131,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "formula") (:file "axioms") (:file "declarations")
                              (:file "clauses") (:file "state-constraints")
                              (:file "extending") (:file "define-theory") (:file "foundations")
-                             (:file "variants")))
+                             (:file "variants") (:file "revising")))
                (:module "grounding"
                 :serial t
                 :components ((:file "ground-theory") (:file "compiler") (:file "numeric")
@@ -226,7 +226,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "action-theory") (:file "bindings") (:file "clauses")
                              (:file "checks") (:file "define-action") (:file "returned-values")
-                             (:file "outcomes")))
+                             (:file "outcomes") (:file "revising")))
                (:module "paths"
                 :serial t
                 :components ((:file "oracle") (:file "path") (:file "decisions") (:file "journal")))
@@ -335,6 +335,8 @@ The environment variable CXX names another compiler than g++."))
                (:file "judgement") (:file "comparisons")
                (:file "results") (:file "search") (:file "report") (:file "scene-runs")
                (:file "replay") (:file "replay-file")
+               (:file "edits") (:file "edits-examples") (:file "edits-conditions")
+               (:file "edits-effects") (:file "edits-outcomes") (:file "edits-check")
                (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
                (:file "explain-text")
                (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")

@@ -72,7 +72,7 @@ DOMAIN.  COMPARISON and CONTEXT are as for JUDGE-RUN."
                                                                           atom))))
                           comparisons)
                     nil)
-                  domain solver state run trace comparison))
+                  domain solver state (run-steps run) trace comparison))
      domain run context)
     (append (reverse comparisons)
             (loop for step in (nthcdr (length comparisons) (run-steps run))

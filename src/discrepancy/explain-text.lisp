@@ -104,14 +104,6 @@ observed-in-the-run-3)\"."
             (values-text (influence-failing influence))
             (values-text (influence-agreeing influence)))))
 
-(defun edit-verdict-text (edit)
-  "Return what the checks of EDIT came to, as a sentence."
-  (format nil "~:[It does not remove the discrepancy~;It removes the discrepancy~] and contradicts ~
-               ~:[~:*~d~;none~] of the ~d run~:p."
-          (edit-removes-p edit)
-          (if (zerop (edit-contradicted edit)) t (edit-contradicted edit))
-          (edit-runs edit)))
-
 (defun runs-text (explanation)
   (format nil "~d of ~d run~:p of this trace agree~[s~:;~]; ~d further run~:p ~:*~[were~;was~:;were~] ~
                made for this."
@@ -146,7 +138,7 @@ observed-in-the-run-3)\"."
         (format stream "  candidate edits~%")
         (loop for edit in (explanation-edits explanation)
               for number from 1
-              do (format stream "    ~d. ~a~%       ~a~%" number (edit-text edit)
+              do (format stream "    ~d. ~a~%       ~@(~a~).~%" number (edit-text edit)
                          (edit-verdict-text edit)))))))
 
 ;;; JSON

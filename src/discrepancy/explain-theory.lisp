@@ -45,7 +45,7 @@ LAST."
                       (push (moment-of ground solver candidates (1+ number) (run-step-state step))
                             moments)
                       (= (1+ number) last))
-                    domain solver state run trace :consistent)))
+                    domain solver state (run-steps run) trace :consistent)))
      domain run nil)
     (coerce (reverse moments) 'vector)))
 

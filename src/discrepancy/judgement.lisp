@@ -128,10 +128,10 @@ opposite of each."
             (unless (allows-p solver candidates others)
               (setf needed others)))))))
 
-(defun trace-state-after (trace run number)
-  "Return the state of TRACE after step NUMBER if RUN has taken the steps of TRACE up to it."
+(defun trace-state-after (trace steps number)
+  "Return the state of TRACE after step NUMBER if STEPS are those of TRACE up to it."
   (and (< number (length (symbolic:trace-steps trace)))
-       (every #'same-step-p (subseq (run-steps run) 0 (1+ number)) (symbolic:trace-steps trace))
+       (every #'same-step-p (subseq steps 0 (1+ number)) (symbolic:trace-steps trace))
        (nth (1+ number) (symbolic:trace-states trace))))
 
 (defun unequal-values (state observed)
@@ -158,12 +158,12 @@ outcomes that it allows, or CANDIDATES if there are none."
                        (symbolic:action-outcomes domain (run-step-designator step)))
       candidates))
 
-(defun map-steps (function domain solver state run trace comparison)
-  "Call FUNCTION for each step of RUN, from STATE on, until it returns true or the theory forbids an
+(defun map-steps (function domain solver state steps trace comparison)
+  "Call FUNCTION for each of STEPS, from STATE on, until it returns true or the theory forbids an
 outcome: with the step's number, the step, what is wrong (:OUTCOME, :STATE or NIL), the list of
 (atom theory-value simulation-value) in which they differ, and the candidates after it."
   (let ((candidates (list (cons state t))))
-    (loop for step in (run-steps run)
+    (loop for step in steps
           for number from 0
           for next = (next-candidates domain solver candidates (run-step-candidates step))
           do (if (null next)
@@ -173,14 +173,14 @@ outcome: with the step's number, the step, what is wrong (:OUTCOME, :STATE or NI
                    (return))
                  (let ((differences (differences solver next
                                                  (and (eq comparison :exact)
-                                                      (trace-state-after trace run number))
+                                                      (trace-state-after trace steps number))
                                                  step)))
                    (when (funcall function number step (and differences :state) differences next)
                      (return))
                    (setf candidates next))))))
 
-(defun judge-steps (domain solver state run trace comparison)
-  "Return whether the theory of DOMAIN allows the outcomes of RUN, and the state after the last of
+(defun judge-steps (domain solver state steps trace comparison)
+  "Return whether the theory of DOMAIN allows the outcomes of STEPS, and the state after the last of
 them; by the COMPARISON :EXACT also whether that after the last step of TRACE is as in TRACE.  The
 second value is the first divergence or NIL."
   (let ((divergence nil) (final t) (last-of-trace t))
@@ -193,7 +193,7 @@ second value is the first divergence or NIL."
                             (= (1+ number) (length (symbolic:trace-steps trace))))
                    (setf last-of-trace nil))
                  nil)
-               domain solver state run trace comparison)
+               domain solver state steps trace comparison)
     (values (and final last-of-trace) divergence)))
 
 (defun followed-p (run trace)
@@ -224,7 +224,7 @@ NIL for a new one."
   (call-with-judge
    (lambda (solver state)
      (multiple-value-bind (consistent divergence)
-         (judge-steps domain solver state run trace comparison)
+         (judge-steps domain solver state (run-steps run) trace comparison)
        (make-judgement
         :divergence divergence :comparison comparison
         :verdict (cond ((or (not consistent) (and divergence (eq compare :every-step)))

@@ -66,6 +66,10 @@ search, replay.")
    #:shrinking-text #:shrinking-json #:boundary #:boundary-parameter #:boundary-failing
    #:boundary-passing #:boundary-text #:run-case
    #:recorded-action #:recorded-action-text #:discrepancy-actions #:discrepancy-left-out
+   ;; candidate edits of the theory
+   #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
+   #:edit-requirements #:edit-removes-p #:edit-contradicted #:edit-runs #:edited-theory
+   #:edited-domain
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy

@@ -18,6 +18,8 @@ them and why, and what they say of a state after known events.")
    #:axiom #:axiom-name #:axiom-label #:axiom-formula #:axiom-position
    ;; variants of theories, and what a state alone decides
    #:theory-variant #:about-the-beginning-p #:self-contained-p #:formula-form
+   ;; revised theories
+   #:revised-theory #:effect-axioms #:event-axioms
    ;; names and atoms
    #:name-keyword #:name-text #:atom-text #:text-atom
    ;; formulas

@@ -15,6 +15,7 @@
    #:value-of #:truth-of
    #:action-binding #:find-action-binding #:find-action-theory #:register-action-theory
    #:all-action-theories #:make-domain
+   #:revised-binding #:action-binding-class #:action-binding-type
    #:entered-p #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition
    ;; exploration
    #:explore-plan #:make-exploration #:next-trace #:exploration #:exploration-traces

@@ -19,6 +19,7 @@ constraints.  Signals THEORY-ERROR."
   (make-checked-theory
    :name (theory-name theory) :documentation (theory-documentation theory)
    :syntax (theory-syntax theory) :file (theory-file theory)
+   :extended-files (theory-extended-files theory)
    :sorts (theory-sorts theory)
    :predicates (theory-predicates theory) :extensions (theory-extensions theory)
    :functions (theory-functions theory)
