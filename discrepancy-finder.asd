@@ -350,8 +350,7 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "html") (:file "style") (:file "shots") (:file "sheet")
                (:file "regions") (:file "labels") (:file "map") (:file "strips")
-               (:file "timeline")
-               (:file "page")))
+               (:file "timeline") (:file "why") (:file "page")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."

@@ -1,9 +1,9 @@
 ;;;; Results of searches as JSON: all that a report tells, for programs to read.
 ;;;;
-;;;; RESULT-JSON is the entry point.  An object for the search holds one for each trace, which holds
-;;;; one for each discrepancy.  States are arrays of the fluents that are true; of the simulation
-;;;; only those in the array "observable" are known.  Keys are lower case, words of several parts
-;;;; have underscores; steps count from 1, samples from 0; units are SI.
+;;;; RESULT-JSON is the entry point.  The object for a search holds one for each trace and one for
+;;;; each discrepancy, which tells its trace in full.  States are arrays of the fluents that are true;
+;;;; of the simulation only those in the array "observable" are known.  Keys are lower case, words of
+;;;; several parts have underscores; steps and traces count from 1, samples from 0; units are SI.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -87,21 +87,35 @@
    "steps" (run-steps-json run)
    "final" (atoms-json (observed-fluents (run-final-state run)))))
 
-(defun found-json (discrepancy)
-  "Return DISCREPANCY as the result tells it; its file tells what a replay needs."
+(defun trace-number (discrepancy result)
+  "Return the number of the trace in whose samples RESULT has DISCREPANCY, or NIL if it comes from
+elsewhere."
+  (let ((position (position-if (lambda (trace)
+                                 (member discrepancy (trace-result-discrepancies trace)))
+                               (result-traces result))))
+    (and position (1+ position))))
+
+(defun found-json (discrepancy result)
+  "Return DISCREPANCY, which is in RESULT, with both sides in full; its file tells what a replay
+needs."
   (let* ((judgement (discrepancy-judgement discrepancy))
          (divergence (judgement-divergence judgement))
          (run (discrepancy-run discrepancy))
+         (trace (discrepancy-trace discrepancy))
          (step (nth (divergence-step divergence) (run-steps run))))
     (json:object
      "summary" (discrepancy-summary discrepancy)
-     "verdict" (string-downcase (judgement-verdict judgement))
+     "trace" (json-or-null (trace-number discrepancy result))
      "confirmed" (json-boolean (discrepancy-confirmed-p discrepancy))
      "file" (json-or-null (discrepancy-file discrepancy))
      "divergence" (append (divergence-json divergence)
                           (json:object "designator" (princ-to-string (run-step-designator step))
                                        "failure" (json-or-null (run-step-failure step))))
      "sample" (sample-json (discrepancy-sample discrepancy))
+     "parameters" (map 'vector #'parameter-json
+                       (remove-if #'fixed-p (sample-parameters
+                                             (discrepancy-sample discrepancy))))
+     "theory" (theory-side-json trace)
      "simulation" (simulation-side-json run))))
 
 (defun trace-result-json (result domain)
@@ -114,8 +128,7 @@
      "rejected" (trace-result-rejected result)
      "left_trace" (trace-result-left-trace result)
      "parameters" (map 'vector #'parameter-json (drawn-parameters domain trace))
-     "theory" (theory-side-json trace)
-     "discrepancies" (map 'vector #'found-json (trace-result-discrepancies result)))))
+     "theory" (theory-side-json trace))))
 
 ;;; The search
 
@@ -161,4 +174,6 @@ JSON:ENCODE makes a text of it."
                     "gaps" (texts-json (mapcar #'princ-to-string
                                                (symbolic:exploration-gaps exploration))))
      "traces" (map 'vector (lambda (trace) (trace-result-json trace (result-domain result)))
-                   (result-traces result)))))
+                   (result-traces result))
+     "discrepancies" (map 'vector (lambda (discrepancy) (found-json discrepancy result))
+                          (result-discrepancies result)))))

@@ -39,15 +39,9 @@ discrepancy."
      (:div (:class "kicker") ,(format nil "Plan ~a against theory ~a" (key result "plan" "name")
                                       (key result "domain" "theory")))
      (:h1 () ,(verdict-title (key result "status")))
-     ,(let ((first (first-discrepancy result)))
-        (if first
-            (summary-node first)
-            `(:p () ,(after-colon (key result "headline")))))))
-
-(defun first-discrepancy (result)
-  (loop for trace across (key result "traces")
-        for found = (key trace "discrepancies")
-        when (plusp (length found)) return (svref found 0)))
+     ,(if (plusp (length (key result "discrepancies")))
+          (summary-node (svref (key result "discrepancies") 0))
+          `(:p () ,(after-colon (key result "headline"))))))
 
 (defun after-colon (text)
   "Return what follows the first colon in TEXT, as a sentence, or TEXT."
@@ -124,8 +118,10 @@ discrepancy."
              "A second run had other bits, so the simulation is not deterministic; state hash ")
         (:code () ,(key found "simulation" "hash")) ".")))
 
-(defun states-section (theory found)
-  (let* ((simulation (key found "simulation"))
+(defun states-section (found)
+  "Return the states of both sides after the step where they part, and at the end."
+  (let* ((theory (key found "theory"))
+         (simulation (key found "simulation"))
          (step (key found "divergence" "step"))
          (last (length (key simulation "steps"))))
     (flet ((states (title number)
@@ -137,26 +133,31 @@ discrepancy."
         ,(and (= last (length (key theory "steps"))) (/= last step)
               (states "State at the end" last))))))
 
-(defun samples-section (domain trace result shots diverging)
-  "Return map and strips for SHOTS of TRACE; RESULT is the JSON object of the trace."
+(defun samples-section (domain trace parameters shots diverging)
+  "Return map and strips for SHOTS of TRACE; PARAMETERS is an array of objects of the result."
   (and shots
        `((:h3 () ,(if diverging "Where samples passed and failed" "Where samples passed"))
          ,(map-node domain trace shots diverging)
          ,(legend-node (mapcar #'shot-verdict shots) diverging)
-         ,(and (plusp (length (key result "parameters")))
-               (strips-node (key result "parameters")
-                            (loop for shot in shots
-                                  collect (list (shot-sample shot) (shot-verdict shot))))))))
+         ,(and (plusp (length parameters))
+               (strips-node parameters (loop for shot in shots
+                                             collect (list (shot-sample shot)
+                                                           (shot-verdict shot))))))))
 
-(defun discrepancy-section (number found trace-json shots domain trace command)
+(defun discrepancy-section (number found discrepancy shots command)
+  "Return the section for DISCREPANCY, of which the object FOUND tells; it has NUMBER."
   `(:section (:id ,(format nil "discrepancy-~d" number))
      (:h2 () ,(format nil "Discrepancy ~d" number))
      ,(and (> number 1) (summary-node found))
+     ,(explanation-nodes (key found "explanation"))
      ,(replay-node found command)
-     ,(samples-section domain trace trace-json shots (key found "divergence" "step"))
+     ,(samples-section (discrepancy:discrepancy-domain discrepancy)
+                       (discrepancy:discrepancy-trace discrepancy)
+                       (key found "parameters") shots (key found "divergence" "step"))
      (:h3 () "Step by step")
-     ,(timeline-node (key trace-json "theory") (key found "simulation") (key found "divergence"))
-     ,(states-section (key trace-json "theory") found)))
+     ,(timeline-node (key found "theory") (key found "simulation") (key found "divergence"))
+     ,(states-section found)
+     ,(shrunk-nodes (key found "shrunk") command)))
 
 ;;; Traces without discrepancies
 
@@ -168,7 +169,7 @@ discrepancy."
                      (capitalized (key trace-json "reason")) (key trace-json "samples")
                      (positive (key trace-json "rejected"))
                      (positive (key trace-json "left_trace"))))
-     ,(samples-section domain trace trace-json shots nil)
+     ,(samples-section domain trace (key trace-json "parameters") shots nil)
      (:h3 () "Step by step")
      ,(timeline-node (key trace-json "theory") nil nil)))
 
@@ -181,20 +182,23 @@ discrepancy."
 
 ;;; The whole
 
-(defun trace-nodes (result trace-result trace-json number command)
-  "Return the sections for TRACE-RESULT of RESULT, of which TRACE-JSON tells."
-  (let ((domain (discrepancy:result-domain result))
-        (trace (discrepancy:trace-result-trace trace-result))
-        (found (discrepancy:trace-result-discrepancies trace-result)))
-    (if found
-        (loop for discrepancy in found
-              for object across (key trace-json "discrepancies")
-              for count from 1
-              collect (discrepancy-section
-                       count object trace-json
-                       (discrepancy-shots result trace-result discrepancy)
-                       domain trace command))
-        (trace-section number trace-json (trace-shots result trace-result) domain trace))))
+(defun discrepancy-sections (result object command)
+  (loop for discrepancy in (discrepancy:result-discrepancies result)
+        for found across (key object "discrepancies")
+        for number from 1
+        collect (discrepancy-section number found discrepancy
+                                     (discrepancy-shots result discrepancy)
+                                     command)))
+
+(defun trace-sections (result object)
+  "Return the sections for the traces of RESULT in which no discrepancy was found."
+  (loop for trace-result in (discrepancy:result-traces result)
+        for trace-json across (key object "traces")
+        for number from 1
+        unless (discrepancy:trace-result-discrepancies trace-result)
+          collect (trace-section number trace-json (trace-shots result trace-result)
+                                 (discrepancy:result-domain result)
+                                 (discrepancy:trace-result-trace trace-result))))
 
 (defun page-node (result object command)
   "Return the page of RESULT, whose JSON is OBJECT."
@@ -210,10 +214,8 @@ discrepancy."
          (:main ()
            ,(banner-node object)
            ,(figures-node object)
-           ,(loop for trace-result in (discrepancy:result-traces result)
-                  for trace-json across (key object "traces")
-                  for number from 1
-                  collect (trace-nodes result trace-result trace-json number command))
+           ,(discrepancy-sections result object command)
+           ,(trace-sections result object)
            (:section (:id "search") (:h2 () "The search") ,(facts-node object))
            (:footer () "discrepancy-finder. The result as JSON is in this page, in the element with "
                     "the id result."))

@@ -68,9 +68,13 @@ base was after each performed designator.  VERDICT is :PASSED, :FAILED or :LEFT.
   "Return the shots for the map of TRACE-RESULT, in which no discrepancy was found."
   (passing-shots result trace-result))
 
-(defun discrepancy-shots (result trace-result discrepancy)
-  "Return the shots for the map of DISCREPANCY, which was found in TRACE-RESULT: its own first."
-  (cons (result-shot result (discrepancy:trace-result-trace trace-result)
-                     (discrepancy:discrepancy-sample discrepancy) :failed
-                     (discrepancy:discrepancy-execution discrepancy))
-        (passing-shots result trace-result)))
+(defun discrepancy-shots (result discrepancy)
+  "Return the shots for the map of DISCREPANCY, which is in RESULT: its own first."
+  (let ((trace-result (find-if (lambda (trace-result)
+                                 (member discrepancy (discrepancy:trace-result-discrepancies
+                                                      trace-result)))
+                               (discrepancy:result-traces result))))
+    (cons (result-shot result (discrepancy:discrepancy-trace discrepancy)
+                       (discrepancy:discrepancy-sample discrepancy) :failed
+                       (discrepancy:discrepancy-execution discrepancy))
+          (and trace-result (passing-shots result trace-result)))))
