@@ -68,10 +68,6 @@ search, replay.")
    ;; replay
    #:save-discrepancy #:replay #:replay-result #:replay-status #:replay-verdict
    #:replay-discrepancy #:replay-text
-   ;; results as JSON, and what pictures of them need
-   #:result-json #:result-plan #:result-domain #:result-constraint #:result-rule-name
-   #:result-confidence #:result-parameters #:trace-result-discrepancies #:sample-poses
-   #:sample-joints #:sample-parameters #:write-file-whole #:discrepancy-domain #:discrepancy-execution
    ;; shrinking
    #:shrink-discrepancy #:shrinking #:shrinking-discrepancy #:shrinking-original
    #:shrinking-boundary #:shrinking-runs #:shrinking-seconds #:shrinking-exhausted
@@ -82,6 +78,8 @@ search, replay.")
    #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
    #:edit-requirements #:edit-removes-p #:edit-contradicted #:edit-runs #:edited-theory
    #:edited-domain
+   ;; results as JSON, and what pictures of them need
+   #:result-json #:sample-poses #:sample-joints #:sample-parameters #:write-file-whole #:run-sample
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy

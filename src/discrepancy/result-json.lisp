@@ -38,6 +38,17 @@
                "meaning" (json-or-null (parameter-meaning parameter))
                "tolerance" (json-boolean (tolerance-p parameter))))
 
+(defun runs-json (runs)
+  "Return RUNS, a list of (run . judgement), with the values that were drawn, in the order of the
+parameters."
+  (map 'vector
+       (lambda (entry)
+         (destructuring-bind (run . judgement) entry
+           (json:object "sample" (sample-index (run-sample run))
+                        "verdict" (string-downcase (judgement-verdict judgement))
+                        "values" (coerce (drawn-values (run-sample run)) 'simple-vector))))
+       runs))
+
 (defun drawn-parameters (domain trace)
   "Return the list of the PARAMETERs that are drawn for TRACE; NIL if it cannot be sampled."
   (handler-case (remove-if #'fixed-p (initial-parameters domain trace))
@@ -105,6 +116,9 @@ needs."
          (step (nth (divergence-step divergence) (run-steps run))))
     (json:object
      "summary" (discrepancy-summary discrepancy)
+     "kind" (kind-text discrepancy)
+     "occurrences" (discrepancy-occurrences discrepancy)
+     "origin" (string-downcase (discrepancy-origin discrepancy))
      "trace" (json-or-null (trace-number discrepancy result))
      "confirmed" (json-boolean (discrepancy-confirmed-p discrepancy))
      "file" (json-or-null (discrepancy-file discrepancy))
@@ -116,7 +130,14 @@ needs."
                        (remove-if #'fixed-p (sample-parameters
                                              (discrepancy-sample discrepancy))))
      "theory" (theory-side-json trace)
-     "simulation" (simulation-side-json run))))
+     "simulation" (simulation-side-json run)
+     "runs" (runs-json (discrepancy-runs discrepancy))
+     "explanation" (if (discrepancy-explanation discrepancy)
+                       (explanation-json (discrepancy-explanation discrepancy))
+                       :null)
+     "shrunk" (if (discrepancy-shrunk discrepancy)
+                  (shrinking-json (discrepancy-shrunk discrepancy))
+                  :null))))
 
 (defun trace-result-json (result domain)
   "Return what sampling a trace of DOMAIN came to, the TRACE-RESULT RESULT."
@@ -125,15 +146,29 @@ needs."
      "status" (string-downcase (trace-result-status result))
      "reason" (trace-result-reason result)
      "samples" (trace-result-samples result)
+     "blind" (trace-result-blind result)
+     "targeted" (trace-result-targeted result)
+     "drawn" (trace-result-drawn result)
      "rejected" (trace-result-rejected result)
+     "acceptance_rate" (json-or-null (trace-result-acceptance-rate result))
+     "confidence" (trace-result-confidence result)
+     "void" (json-or-null (trace-result-void result))
+     "warnings" (texts-json (trace-result-warnings result))
      "left_trace" (trace-result-left-trace result)
      "parameters" (map 'vector #'parameter-json (drawn-parameters domain trace))
-     "theory" (theory-side-json trace))))
+     "theory" (theory-side-json trace)
+     "runs" (runs-json (trace-result-runs result)))))
 
 ;;; The search
 
 (defun tolerances-json (domain)
   (map 'vector #'parameter-json (tolerance-parameters (domain-scene domain))))
+
+(defun phase-json (phase)
+  (json:object "name" (string-downcase (phase-name phase))
+               "simulations" (phase-simulations phase)
+               "seconds" (phase-seconds phase)
+               "simulation_seconds" (phase-simulation-seconds phase)))
 
 (defun result-plan-json (result)
   (let ((plan (result-plan result)))
@@ -162,13 +197,24 @@ JSON:ENCODE makes a text of it."
      "rule" (string-downcase (result-rule-name result))
      "confidence" (result-confidence result)
      "seed" (result-seed result)
+     "sampler" (string-downcase (result-sampler result))
      "parameters" (loop for (name value) on (result-parameters result) by #'cddr
                         collect (cons (ec:name-text name) (decimal-double value)))
      "tolerances" (tolerances-json (result-domain result))
      "iterations" (result-iterations result)
      "simulations" (result-simulations result)
-     "seconds" (json:object "symbolic" (float (result-symbolic-seconds result) 1d0)
-                            "simulation" (float (result-simulation-seconds result) 1d0))
+     "acceptance_rate" (json-or-null (result-acceptance-rate result))
+     "seconds" (json:object "all" (result-seconds result)
+                            "symbolic" (float (result-symbolic-seconds result) 1d0)
+                            "simulation" (float (result-simulation-seconds result) 1d0)
+                            "solver" (float (result-solver-seconds result) 1d0))
+     "phases" (map 'vector #'phase-json (result-phases result))
+     "stopped" (json-or-null (result-stopped result))
+     "reused" (map 'vector (lambda (entry)
+                             (destructuring-bind (discrepancies file text) entry
+                               (json:object "file" file "verdict" text
+                                            "shows" (json-boolean discrepancies))))
+                   (result-reused result))
      "exploration" (json:object
                     "complete" (json-boolean (symbolic:exploration-complete-p exploration))
                     "gaps" (texts-json (mapcar #'princ-to-string

@@ -40,41 +40,45 @@ base was after each performed designator.  VERDICT is :PASSED, :FAILED or :LEFT.
 ;;; Which samples are shown
 
 (defparameter *shot-limit* 16
-  "At most so many passing samples of a trace are run again.")
+  "At most so many samples of a trace are run again for a map.")
 
-(defun result-shot (result trace sample verdict execution)
+(defun entry-verdict (entry)
+  (ecase (discrepancy:judgement-verdict (cdr entry))
+    (:consistent :passed)
+    (:discrepancy :failed)
+    (:left-trace :left)))
+
+(defun entry-shot (result trace execution entry)
+  "Return the shot of ENTRY, a (run . judgement)."
   (take-shot (discrepancy:result-domain result)
              (plan:plan-name (discrepancy:result-plan result))
-             trace execution sample verdict))
+             trace execution (discrepancy:run-sample (car entry)) (entry-verdict entry)))
 
-(defun passing-shots (result trace-result)
-  "Return shots of passing samples of TRACE-RESULT."
-  (let* ((trace (discrepancy:trace-result-trace trace-result))
-         (domain (discrepancy:result-domain result))
-         (parameters (discrepancy:initial-parameters domain trace)))
-    (loop with wanted = (min *shot-limit* (discrepancy:trace-result-samples trace-result))
-          for index from 0 below (+ (discrepancy:trace-result-samples trace-result)
-                                    (discrepancy:trace-result-rejected trace-result))
-          while (plusp wanted)
-          collect (prog1 (result-shot result trace
-                                      (discrepancy:draw-sample
-                                       parameters (discrepancy:result-seed result)
-                                       (discrepancy:content-hash (symbolic:trace-text trace))
-                                       index)
-                                      :passed :trace)
-                    (decf wanted)))))
+(defun without-pictures (entry)
+  "Return the shot of ENTRY, a (run . judgement), with the sample and the verdict alone."
+  (make-shot :sample (discrepancy:run-sample (car entry)) :verdict (entry-verdict entry)))
+
+(defun entries-shots (result trace execution entries)
+  "Return the shots of ENTRIES, of which the first *SHOT-LIMIT* are run again."
+  (loop for entry in entries
+        for count from 0
+        collect (if (< count *shot-limit*)
+                    (entry-shot result trace execution entry)
+                    (without-pictures entry))))
 
 (defun trace-shots (result trace-result)
   "Return the shots for the map of TRACE-RESULT, in which no discrepancy was found."
-  (passing-shots result trace-result))
+  (entries-shots result (discrepancy:trace-result-trace trace-result) :trace
+                 (discrepancy:trace-result-runs trace-result)))
 
 (defun discrepancy-shots (result discrepancy)
   "Return the shots for the map of DISCREPANCY, which is in RESULT: its own first."
-  (let ((trace-result (find-if (lambda (trace-result)
-                                 (member discrepancy (discrepancy:trace-result-discrepancies
-                                                      trace-result)))
-                               (discrepancy:result-traces result))))
-    (cons (result-shot result (discrepancy:discrepancy-trace discrepancy)
-                       (discrepancy:discrepancy-sample discrepancy) :failed
-                       (discrepancy:discrepancy-execution discrepancy))
-          (and trace-result (passing-shots result trace-result)))))
+  (let* ((run (discrepancy:discrepancy-run discrepancy))
+         (sample (discrepancy:discrepancy-sample discrepancy))
+         (others (remove-if (lambda (entry)
+                              (or (eq (car entry) run)
+                                  (eq (discrepancy:run-sample (car entry)) sample)))
+                            (discrepancy:discrepancy-runs discrepancy))))
+    (entries-shots result (discrepancy:discrepancy-trace discrepancy)
+                   (discrepancy:discrepancy-execution discrepancy)
+                   (cons (cons run (discrepancy:discrepancy-judgement discrepancy)) others))))
