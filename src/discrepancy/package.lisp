@@ -50,6 +50,7 @@ search, replay.")
    #:result-rule #:result-confidence #:result-sampler #:result-acceptance-rate #:result-kinds
    #:result-phases #:result-seconds #:result-solver-seconds #:result-reused #:result-stopped
    #:search-phase #:phase-name #:phase-simulations #:phase-simulation-seconds #:phase-seconds
+   #:result-statement #:trace-result-statement #:trace-result-bound
    #:request-stop #:stop-search
    #:skip-sample #:retry-sample #:abort-trace
    #:trace-result #:trace-result-status #:trace-result-trace #:trace-result-verdict

@@ -19,11 +19,12 @@
   "The sampling of a trace in progress, by RULE.  DISCREPANCIES are newest first; IN-A-ROW counts
 the rejected samples since the last valid one, FINDS all discrepancies, REPEATED those of known
 kinds since the last agreement; PENDING are the values of the present ROUND of strata, RUNS conses
-(run . judgement), both newest first; REASONS counts why samples were rejected."
+(run . judgement), both newest first; RESTING are the bodies that do not change their regions; REASONS counts why samples were rejected."
   (search nil :read-only t)
   (trace nil :read-only t)
   (parameters '() :type list :read-only t)
   (outputs '() :type list :read-only t)
+  (resting '() :type list :read-only t)
   (content 0 :type (unsigned-byte 64) :read-only t)
   (rule nil :read-only t)
   (evidence nil :read-only t)
@@ -53,9 +54,11 @@ kinds since the last agreement; PENDING are the values of the present ROUND of s
   "Return the TRACE-SEARCH for TRACE.  Signals SAMPLING-ERROR."
   (let* ((parameters (initial-parameters (search-domain search) trace))
          (outputs (final-parameters (search-domain search) trace))
+         (resting (resting-bodies (search-domain search) trace))
          (region (make-parameter-region (parameter-bounds (remove-if #'fixed-p parameters))
-                                        (parameter-bounds outputs))))
+                                        (final-bounds outputs resting))))
     (make-trace-search :search search :trace trace :parameters parameters :outputs outputs
+                       :resting resting
                        :content (content-hash (symbolic:trace-text trace))
                        :rule (rule-for-trace (search-rule search)
                                              (1+ (length (search-results search))))
@@ -227,5 +230,6 @@ satisfied."
     (setf (trace-search-verdict trace-search) verdict)
     (when (and (eq (verdict-status verdict) :confident)
                (inside-final-regions-p (trace-search-outputs trace-search)
-                                       (verdict-intervals verdict)))
+                                       (verdict-intervals verdict)
+                                       (trace-search-resting trace-search)))
       (conclude-certified trace-search verdict))))
