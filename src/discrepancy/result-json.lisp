@@ -139,8 +139,9 @@ needs."
                   (shrinking-json (discrepancy-shrunk discrepancy))
                   :null))))
 
-(defun trace-result-json (result domain)
-  "Return what sampling a trace of DOMAIN came to, the TRACE-RESULT RESULT."
+(defun trace-result-json (result domain confidence)
+  "Return what sampling a trace of DOMAIN came to, the TRACE-RESULT RESULT; CONFIDENCE is the whole
+search's."
   (let ((trace (trace-result-trace result)))
     (json:object
      "status" (string-downcase (trace-result-status result))
@@ -153,6 +154,7 @@ needs."
      "acceptance_rate" (json-or-null (trace-result-acceptance-rate result))
      "confidence" (trace-result-confidence result)
      "void" (json-or-null (trace-result-void result))
+     "statement" (trace-result-statement result confidence)
      "warnings" (texts-json (trace-result-warnings result))
      "left_trace" (trace-result-left-trace result)
      "parameters" (map 'vector #'parameter-json (drawn-parameters domain trace))
@@ -191,6 +193,7 @@ JSON:ENCODE makes a text of it."
      "status" (string-downcase (result-status result))
      "headline" (headline result)
      "reason" (result-reason result)
+     "statement" (json-or-null (result-statement result))
      "plan" (result-plan-json result)
      "domain" (result-domain-json result)
      "constraint" (ec:name-text (result-constraint result))
@@ -219,7 +222,9 @@ JSON:ENCODE makes a text of it."
                     "complete" (json-boolean (symbolic:exploration-complete-p exploration))
                     "gaps" (texts-json (mapcar #'princ-to-string
                                                (symbolic:exploration-gaps exploration))))
-     "traces" (map 'vector (lambda (trace) (trace-result-json trace (result-domain result)))
+     "traces" (map 'vector (lambda (trace)
+                            (trace-result-json trace (result-domain result)
+                                               (result-confidence result)))
                    (result-traces result))
      "discrepancies" (map 'vector (lambda (discrepancy) (found-json discrepancy result))
                           (result-discrepancies result)))))

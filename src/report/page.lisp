@@ -41,7 +41,10 @@ discrepancy."
      (:h1 () ,(verdict-title (key result "status")))
      ,(if (plusp (length (key result "discrepancies")))
           (summary-node (svref (key result "discrepancies") 0))
-          `(:p () ,(after-colon (key result "headline"))))))
+          `((:p () ,(after-colon (key result "headline")))
+            ,(and (key result "statement") `(:p () ,(key result "statement")))))
+     ,(and (key result "stopped")
+           `(:p () ,(format nil "The search ended before its time: ~a." (key result "stopped"))))))
 
 (defun after-colon (text)
   "Return what follows the first colon in TEXT, as a sentence, or TEXT."
@@ -56,8 +59,11 @@ discrepancy."
     `(:dl (:class "figures")
        ,(figure "Iterations" (key result "iterations"))
        ,(figure "Simulations" (key result "simulations"))
-       ,(figure "Symbolic execution" (format nil "~,2f s" (key result "seconds" "symbolic")))
-       ,(figure "Simulation" (format nil "~,2f s" (key result "seconds" "simulation"))))))
+       ,(and (key result "acceptance_rate")
+             (figure "Valid samples" (format nil "~,1f %" (* 100 (key result "acceptance_rate")))))
+       ,(figure "Whole search" (format nil "~,2f s" (key result "seconds" "all")))
+       ,(figure "in symbolic execution" (format nil "~,2f s" (key result "seconds" "symbolic")))
+       ,(figure "in simulation" (format nil "~,2f s" (key result "seconds" "simulation"))))))
 
 (defun place-text (object)
   "Return the file and line in OBJECT, or NIL."
@@ -77,7 +83,7 @@ discrepancy."
        ,(fact "State constraint" `(:code () ,(key result "constraint")))
        ,(fact "Confidence rule" (format nil "~a at ~a" (key result "rule")
                                         (value-string (key result "confidence"))))
-       ,(fact "Seed" (key result "seed"))
+       ,(fact "Samples" (format nil "~a, seed ~d" (key result "sampler") (key result "seed")))
        ,(and (key result "parameters")
              (fact "Scene parameters"
                    (format nil "~:{~a = ~a~:^, ~}"
@@ -87,7 +93,18 @@ discrepancy."
               (if (eq (key result "exploration" "complete") :true)
                   "complete"
                   (format nil "not complete~@[: ~{~a~^, ~}~]"
-                          (texts (key result "exploration" "gaps"))))))))
+                          (texts (key result "exploration" "gaps")))))
+       ,(and (plusp (length (key result "reused")))
+             (fact "From the store"
+                   `(:ul () ,(loop for entry across (key result "reused")
+                                   collect `(:li () (:code () ,(key entry "file")) ": "
+                                                 ,(key entry "verdict"))))))
+       ,(fact "Phases"
+              (format nil "~{~a~^, ~}"
+                      (loop for phase across (key result "phases")
+                            when (plusp (key phase "seconds"))
+                              collect (format nil "~a ~,2f s" (key phase "name")
+                                              (key phase "seconds"))))))))
 
 ;;; Discrepancies
 
@@ -169,13 +186,12 @@ discrepancy."
                      (capitalized (key trace-json "reason")) (key trace-json "samples")
                      (positive (key trace-json "rejected"))
                      (positive (key trace-json "left_trace"))))
+     (:p () ,(format nil "Whatever the rule says: ~a." (key trace-json "statement")))
+     ,(loop for warning across (key trace-json "warnings")
+            collect `(:p (:class "warning") ,warning))
      ,(samples-section domain trace (key trace-json "parameters") shots nil)
      (:h3 () "Step by step")
      ,(timeline-node (key trace-json "theory") nil nil)))
-
-(defun capitalized (text)
-  (if (string= text "") text (concatenate 'string (string-upcase (subseq text 0 1))
-                                          (subseq text 1))))
 
 (defun positive (number)
   (and (plusp number) number))

@@ -70,6 +70,7 @@ tr.diverging td:first-child { box-shadow: inset 4px 0 0 var(--failed) }
 tr.note-row td { border-bottom: 1px solid var(--line); padding-top: 0 }
 .note { color: var(--failed); font-weight: 600; padding: 2px 0 6px }
 .note code { font-weight: 600 }
+.warning { color: var(--open) }
 tr.not-run td { color: var(--quiet) }
 tr.not-run .chip { color: var(--quiet); background: #fff }
 pre.command { background: var(--soft); border: 1px solid var(--line); border-radius: 6px;

@@ -15,6 +15,10 @@ something is null."
 (defun texts (array)
   (coerce array 'list))
 
+(defun capitalized (text)
+  (if (string= text "") text (concatenate 'string (string-upcase (subseq text 0 1))
+                                          (subseq text 1))))
+
 ;;; Designators
 
 (defun designator-type (text)

@@ -24,13 +24,16 @@
                                        ending (claim-fluents-text claim)))
                        ,(sentences-node (key claim "reasons")))))))
 
+(defun as-sentence (text)
+  (format nil "~a." (string-right-trim "." (capitalized text))))
+
 (defun edit-node (edit)
   "Return a box for EDIT; one that removes the discrepancy and contradicts no run stands out."
   `(:div (:class ,(if (and (eq (key edit "removes") :true) (zerop (key edit "contradicted")))
                       "edit removes"
                       "edit"))
      (:pre (:class "text") ,(key edit "text"))
-     (:div (:class "quiet") ,(key edit "verdict"))))
+     (:div (:class "quiet") ,(as-sentence (key edit "verdict")))))
 
 (defun explanation-nodes (explanation)
   "Return what the object EXPLANATION, which may be NIL, says."
