@@ -90,6 +90,7 @@ parameters."
 (defun simulation-side-json (run)
   "Return what was seen of RUN."
   (json:object
+   "sample" (sample-index (run-sample run))
    "ending" (ec:name-text (run-ending run))
    "seconds" (run-seconds run)
    "hash" (hash-text (run-hash run))
@@ -159,6 +160,9 @@ search's."
      "left_trace" (trace-result-left-trace result)
      "parameters" (map 'vector #'parameter-json (drawn-parameters domain trace))
      "theory" (theory-side-json trace)
+     "simulation" (let ((entry (find :consistent (trace-result-runs result)
+                                     :key (lambda (entry) (judgement-verdict (cdr entry))))))
+                    (if entry (simulation-side-json (car entry)) :null))
      "runs" (runs-json (trace-result-runs result)))))
 
 ;;; The search

@@ -191,7 +191,7 @@ discrepancy."
             collect `(:p (:class "warning") ,warning))
      ,(samples-section domain trace (key trace-json "parameters") shots nil)
      (:h3 () "Step by step")
-     ,(timeline-node (key trace-json "theory") nil nil)))
+     ,(timeline-node (key trace-json "theory") (key trace-json "simulation") nil)))
 
 (defun positive (number)
   (and (plusp number) number))

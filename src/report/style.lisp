@@ -52,6 +52,7 @@ tr.differs td { background: #fdecea; font-weight: 600 }
 .timeline .action { font-weight: 650 }
 .timeline .designator { color: var(--quiet); overflow-wrap: anywhere; font-size: 12px }
 .timeline td { font-size: 14px }
+.timeline th:first-child { width: 52px }
 .timeline td:nth-child(2) { width: 33% }
 .timeline td:nth-child(3) { width: 38% }
 .hidden { color: var(--quiet); font-size: 12px; margin-top: 2px }

@@ -150,7 +150,9 @@ DIVERGENCE may be NIL."
     `(:table (:class "timeline")
        (:thead () (:tr () (:th (:class "number") "Step") (:th () "Action")
                        (:th () "In the theory")
-                       ,(and simulation '(:th () "In the simulation"))))
+                       ,(and simulation
+                             `(:th () ,(format nil "In the simulation of sample ~d"
+                                               (key simulation "sample"))))))
        (:tbody ()
          ,(loop for number from 1 to (max (length theory-steps) (length simulation-steps))
                 for in-theory = (<= number (length theory-steps))
