@@ -59,8 +59,9 @@ The environment variable CXX names another compiler than g++."))
                "discrepancy-finder/json" "alexandria" "command-line-arguments")
   :pathname "src/interface/"
   :serial t
-  :components ((:file "package") (:file "repl") (:file "command-line") (:file "simulate")
-               (:file "subcommands")
+  :components ((:file "package") (:file "repl") (:file "command-line") (:file "progress")
+               (:file "simulate") (:file "subcommands") (:file "find-command")
+               (:file "plan-commands") (:file "discrepancy-commands")
                (:file "theory-commands") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
