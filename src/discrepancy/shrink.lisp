@@ -36,6 +36,23 @@ EXHAUSTED is NIL, or says when it was stopped by its bounds."
     (format stream "~d run~:p: ~a" (shrinking-runs shrinking)
             (discrepancy-summary (shrinking-discrepancy shrinking)))))
 
+(defun performed-trace (discrepancy)
+  "Return the trace of DISCREPANCY with the designators as its run has performed them: what was
+detected is where it was this time."
+  (let ((trace (discrepancy-trace discrepancy)))
+    (if (discrepancy-actions discrepancy)
+        (symbolic:make-execution-trace
+         :plan (symbolic:trace-plan trace) :arguments (symbolic:trace-arguments trace)
+         :states (symbolic:trace-states trace)
+         :steps (loop for expected in (symbolic:trace-steps trace)
+                      for performed in (run-steps (discrepancy-run discrepancy))
+                      collect (symbolic:make-trace-step
+                               :designator (princ-to-string (run-step-designator performed))
+                               :event (symbolic:step-event expected)
+                               :outcome (symbolic:step-outcome expected)
+                               :position (symbolic:step-position expected))))
+        trace)))
+
 (defun confirmed (shrinker)
   "Return the best case of SHRINKER after another run, which says whether it has the same bits."
   (let ((best (shrinker-best shrinker)))
@@ -44,6 +61,10 @@ EXHAUSTED is NIL, or says when it was stopped by its bounds."
         (let ((again (run-case best)))
           (incf (shrinker-runs shrinker))
           (variation best :run (discrepancy-run best) :judgement (discrepancy-judgement best)
+                          :trace (performed-trace best)
+                          :actions (and (discrepancy-actions best)
+                                        (mapcar #'recorded-step-action
+                                                (run-steps (discrepancy-run best))))
                           :confirmed-p (= (run-hash again) (run-hash (discrepancy-run best))))))))
 
 (defun shrink-discrepancy (discrepancy &key (max-runs 300) (max-seconds 60))
@@ -91,7 +112,6 @@ after MAX-SECONDS.  Signals INVALID-ARGUMENT."
 the nearest sample that passes.  COMMAND is as for DISCREPANCY-TEXT."
   (let* ((original (shrinking-original shrinking))
          (discrepancy (shrinking-discrepancy shrinking))
-         (left-out (discrepancy-left-out discrepancy))
          (drawn (count-if-not #'fixed-p (sample-parameters (discrepancy-sample discrepancy))))
          (ordinary (- drawn (length (mattering-numbers discrepancy)))))
     (with-output-to-string (stream)
@@ -99,9 +119,6 @@ the nearest sample that passes.  COMMAND is as for DISCREPANCY-TEXT."
               (shrinking-exhausted shrinking))
       (format stream "  ~d of ~d step~:p are left~%"
               (step-count discrepancy) (step-count original))
-      (when left-out
-        (format stream "  ~{~a~#[~; and ~:;, ~]~} ~:[are~;is~] left out of the world~%"
-                (mapcar #'ec:name-text left-out) (null (rest left-out))))
       (format stream "  ~d of ~d drawn values ~:[are~;is~] ordinary~@[; what matters: ~a~]~%"
               ordinary drawn (= ordinary 1)
               (and (< ordinary drawn) (mattering-text discrepancy)))

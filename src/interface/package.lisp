@@ -54,6 +54,8 @@
                 #:discrepancy-run #:discrepancy-judgement
                 #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
                 #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
+                #:shrink-discrepancy #:shrinking #:shrinking-text #:shrinking-discrepancy
+                #:shrinking-boundary
                 #:discrepancy-found #:discrepancy-found-discrepancy
                 #:continue-search #:next-trace #:accept
                 #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
@@ -107,6 +109,7 @@
    #:discrepancy #:discrepancy-text #:discrepancy-trace #:discrepancy-sample #:discrepancy-run
    #:discrepancy-judgement
    #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
+   #:shrink-discrepancy #:shrinking #:shrinking-text #:shrinking-discrepancy #:shrinking-boundary
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
