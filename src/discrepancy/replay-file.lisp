@@ -203,12 +203,12 @@ theory must allow them."
   (unless (every #'stringp (value-of object key 'simple-vector))
     (replay-problem "~s is no array of strings" key)))
 
-(defun shrunk-part (object)
-  "Return the JSON object that tells how the discrepancy OBJECT was shrunk: itself, but for the
-older formats."
+(defun newer-part (object)
+  "Return the JSON object that has what files of the first format lack: OBJECT, or, if it is of that
+format, one that says what was always so then."
   (if (equal (json:get-key object "format" nil) *replay-format*)
       object
-      (json:object "actions" (vector) "left-out" (vector))))
+      (json:object "comparison" "consistent" "actions" (vector) "left-out" (vector))))
 
 (defun check-replay (object)
   "Check the parts of OBJECT that can be checked without plan and domain, which are code and are
@@ -225,8 +225,9 @@ loaded only for a file that has this form."
     (check-strings run "final")
     (value-of (value-of run "divergence" 'cons) "step" '(integer 1)))
   (check-strings (value-of object "trace" 'list) "initial")
-  (check-strings (shrunk-part object) "left-out")
-  (value-of (shrunk-part object) "actions" 'simple-vector)
+  (keyword-of (newer-part object) "comparison" '(:consistent :exact))
+  (check-strings (newer-part object) "left-out")
+  (value-of (newer-part object) "actions" 'simple-vector)
   (value-of (value-of object "sample" 'list) "index" '(or (unsigned-byte 32) (eql :null))))
 
 (defun check-format (object)
@@ -241,14 +242,15 @@ loaded only for a file that has this form."
   (let* ((plan (read-plan (value-of object "plan" 'list) folder))
          (domain (read-domain (value-of object "domain" 'list) folder))
          (parameters (read-parameters (value-of object "parameters" 'list) (domain-scene domain)))
-         (left-out (read-left-out (shrunk-part object) (domain-scene domain)))
+         (left-out (read-left-out (newer-part object) (domain-scene domain)))
          (domain (domain-without-items (domain-with-parameters domain parameters) left-out))
          (trace (read-trace (value-of object "trace" 'list) plan domain)))
     (list :plan plan :domain domain :parameters parameters :trace trace
-          :actions (read-actions (shrunk-part object)) :left-out left-out
+          :actions (read-actions (newer-part object)) :left-out left-out
           :constraint (read-constraint (value-of object "constraint" 'string) domain)
           :execution (keyword-of object "execution" '(:trace :plan))
           :compare (keyword-of object "compare" '(:final :every-step))
+          :comparison (keyword-of (newer-part object) "comparison" '(:consistent :exact))
           :seed (value-of object "seed" '(unsigned-byte 64))
           :sample (read-sample (value-of object "sample" 'list)
                                (handler-case (initial-parameters domain trace)

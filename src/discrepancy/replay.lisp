@@ -90,6 +90,7 @@
                         collect (cons (ec:name-text name) (decimal-double value)))
      "execution" (string-downcase (discrepancy-execution discrepancy))
      "compare" (string-downcase (discrepancy-compare discrepancy))
+     "comparison" (string-downcase (discrepancy-comparison discrepancy))
      "seed" (discrepancy-seed discrepancy)
      "trace" (trace-json (discrepancy-trace discrepancy))
      "actions" (map 'vector
@@ -177,14 +178,14 @@ the initial state is not one of the trace any more."
   "Run the discrepancy stored in FILE again and return a REPLAY-RESULT.  Reading FILE evaluates
 nothing; but the plan and the domain that it names, which are code, are loaded from the files that
 it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
-  (destructuring-bind (&key plan domain parameters trace constraint execution compare (seed 0)
-                         actions left-out sample recorded changed-files)
+  (destructuring-bind (&key plan domain parameters trace constraint execution compare comparison
+                         (seed 0) actions left-out sample recorded changed-files)
       (read-replay-file file)
     (let* ((run (execute-sample domain (plan:plan-name plan) sample
                                 :trace trace :execution execution
                                 :arguments (symbolic:trace-arguments trace) :actions actions))
            (judgement (if (eq (run-validity run) :valid)
-                          (judge-run domain run trace :compare compare)
+                          (judge-run domain run trace :compare compare :comparison comparison)
                           (make-judgement :verdict :left-trace)))
            (same-bits (= (run-hash run) (first recorded)))
            (same-verdict (eq (judgement-verdict judgement) (second recorded))))

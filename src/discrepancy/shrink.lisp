@@ -36,23 +36,6 @@ EXHAUSTED is NIL, or says when it was stopped by its bounds."
     (format stream "~d run~:p: ~a" (shrinking-runs shrinking)
             (discrepancy-summary (shrinking-discrepancy shrinking)))))
 
-(defun performed-trace (discrepancy)
-  "Return the trace of DISCREPANCY with the designators as its run has performed them: what was
-detected is where it was this time."
-  (let ((trace (discrepancy-trace discrepancy)))
-    (if (discrepancy-actions discrepancy)
-        (symbolic:make-execution-trace
-         :plan (symbolic:trace-plan trace) :arguments (symbolic:trace-arguments trace)
-         :states (symbolic:trace-states trace)
-         :steps (loop for expected in (symbolic:trace-steps trace)
-                      for performed in (run-steps (discrepancy-run discrepancy))
-                      collect (symbolic:make-trace-step
-                               :designator (princ-to-string (run-step-designator performed))
-                               :event (symbolic:step-event expected)
-                               :outcome (symbolic:step-outcome expected)
-                               :position (symbolic:step-position expected))))
-        trace)))
-
 (defun confirmed (shrinker)
   "Return the best case of SHRINKER after another run, which says whether it has the same bits."
   (let ((best (shrinker-best shrinker)))
@@ -61,7 +44,6 @@ detected is where it was this time."
         (let ((again (run-case best)))
           (incf (shrinker-runs shrinker))
           (variation best :run (discrepancy-run best) :judgement (discrepancy-judgement best)
-                          :trace (performed-trace best)
                           :actions (and (discrepancy-actions best)
                                         (mapcar #'recorded-step-action
                                                 (run-steps (discrepancy-run best))))
@@ -76,13 +58,11 @@ after MAX-SECONDS.  Signals INVALID-ARGUMENT."
                   "a number of seconds")
   (let ((start (foreign:monotonic-seconds)))
     (z3:with-context (context)
-      (let* ((judgement (discrepancy-judgement discrepancy))
-             (shrinker (make-instance
-                        'shrinker
-                        :original discrepancy :best discrepancy :context context
-                        :kind (kind-of-divergence (discrepancy-run discrepancy)
-                                                  (judgement-divergence judgement))
-                        :max-runs max-runs :deadline (+ start max-seconds))))
+      (let ((shrinker (make-instance
+                       'shrinker
+                       :original discrepancy :best discrepancy :context context
+                       :kind (discrepancy-kind discrepancy)
+                       :max-runs max-runs :deadline (+ start max-seconds))))
         (unless (discrepancy-actions discrepancy)
           (shrink-actions shrinker))
         (shrink-items shrinker)

@@ -1,0 +1,48 @@
+;;;; Revising: a theory with some of its axioms left out and others added.
+;;;;
+;;;; REVISED-THEORY makes a new theory; the old one stays as it is.  EFFECT-AXIOMS and EVENT-AXIOMS
+;;;; find what there is to be left out.
+
+(in-package #:discrepancy-finder.event-calculus)
+
+(defun revised-theory (theory &key without with)
+  "Return THEORY without the axioms whose names are in the list WITHOUT, and with those of WITH, a
+list of (name formula), at the end; an axiom of the same name is replaced in its place.  The state
+constraints are kept.  The new theory is not registered.  Signals THEORY-ERROR."
+  (let* ((new (loop for (name formula) in with
+                    collect (parse-named-axiom theory name formula)))
+         (kept (loop for axiom in (theory-axioms theory)
+                     for replacement = (find (axiom-name axiom) new :key #'axiom-name)
+                     do (when replacement (setf new (remove replacement new)))
+                     unless (and (null replacement) (member (axiom-name axiom) without))
+                       collect (or replacement axiom))))
+    (inherit-state-constraints (theory-variant theory :axioms (append kept new))
+                               (list theory))))
+
+(defun effect-axioms (theory predicate event fluent)
+  "Return the list of the axioms of THEORY that state an effect by PREDICATE (:initiates,
+:terminates or :releases) of the event on the fluent with the names EVENT and FLUENT, and nothing
+else."
+  (remove-if-not (lambda (axiom)
+                   (let ((clauses (axiom-clauses axiom theory)))
+                     (destructuring-bind (kind condition head &rest others) (first clauses)
+                       (declare (ignore condition))
+                       (and (eq kind :effect) (null others) (null (rest clauses))
+                            (eq (first head) predicate)
+                            (consp (second head)) (eq (first (second head)) event)
+                            (consp (third head)) (eq (first (third head)) fluent)))))
+                 (theory-axioms theory)))
+
+(defun names-event-p (form event)
+  "Return true if FORM says that the event named EVENT happens."
+  (and (consp form)
+       (or (and (eq (first form) :happens) (consp (second form)) (eq (first (second form)) event))
+           (some (lambda (part) (names-event-p part event)) (rest form)))))
+
+(defun event-axioms (theory event)
+  "Return the list of the sentences of THEORY, effects apart, that say when the event named EVENT
+may happen."
+  (remove-if-not (lambda (axiom)
+                   (and (names-event-p (axiom-formula axiom) event)
+                        (eq :sentence (first (first (axiom-clauses axiom theory))))))
+                 (theory-axioms theory)))
