@@ -131,7 +131,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "formula") (:file "axioms") (:file "declarations")
                              (:file "clauses") (:file "state-constraints")
                              (:file "extending") (:file "define-theory") (:file "foundations")
-                             (:file "variants") (:file "revising")))
+                             (:file "revising")))
                (:module "grounding"
                 :serial t
                 :components ((:file "ground-theory") (:file "compiler") (:file "numeric")
