@@ -84,6 +84,8 @@ search, replay.")
    #:refinement-steps #:refinement-status #:refinement-reason #:refinement-simulations
    #:refinement-runs #:refinement-results #:refinement-text #:refinement-step
    #:refinement-step-discrepancy #:refinement-step-edit #:refinement-step-alternatives
+   ;; results as JSON, and what pictures of them need
+   #:result-json #:sample-poses #:sample-joints #:sample-parameters #:write-file-whole #:run-sample
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy
