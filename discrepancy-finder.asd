@@ -451,7 +451,10 @@ The environment variable CXX names another compiler than g++."))
                              (:file "kitchen-fidelity")))
                (:module "drawers" :pathname "plans/"
                 :components ((:file "looking-into-drawers")))
-               (:file "interface") (:file "theory-commands") (:file "readme")
+               (:file "interface") (:file "interface-search")
+               (:module "report" :serial t
+                :components ((:file "results") (:file "pages") (:file "browser")))
+               (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
   :perform (asdf:test-op (operation system)

@@ -54,7 +54,7 @@
                 #:discrepancy-run #:discrepancy-judgement
                 #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
                 #:result-json #:explain-discrepancy #:explanation-text
-                #:shrink-discrepancy #:shrinking-text
+                #:shrink-discrepancy #:shrinking-text #:refine-theory #:refinement-text
                 #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
                 #:discrepancy-found #:discrepancy-found-discrepancy
                 #:continue-search #:next-trace #:accept
@@ -112,6 +112,7 @@
    #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
    #:result-json #:write-report
    #:explain-discrepancy #:explanation-text #:shrink-discrepancy #:shrinking-text
+   #:refine-theory #:refinement-text
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
