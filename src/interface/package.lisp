@@ -54,8 +54,10 @@
                 #:discrepancy-run #:discrepancy-judgement
                 #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
                 #:result-json #:explain-discrepancy #:explanation-text
-                #:shrink-discrepancy #:shrinking-text #:refine-theory #:refinement-text
+                #:refine-theory #:refinement-text
                 #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
+                #:shrink-discrepancy #:shrinking #:shrinking-text #:shrinking-discrepancy
+                #:shrinking-boundary
                 #:discrepancy-found #:discrepancy-found-discrepancy
                 #:continue-search #:next-trace #:accept
                 #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
@@ -111,8 +113,8 @@
    #:discrepancy-judgement
    #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
    #:result-json #:write-report
-   #:explain-discrepancy #:explanation-text #:shrink-discrepancy #:shrinking-text
-   #:refine-theory #:refinement-text
+   #:explain-discrepancy #:explanation-text #:refine-theory #:refinement-text
+   #:shrink-discrepancy #:shrinking #:shrinking-text #:shrinking-discrepancy #:shrinking-boundary
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
