@@ -117,12 +117,21 @@ are none."
                                                   is not sampled"
                                              (ec:atom-text (attachment-atom observer)))))))
 
+(defun coordinate-range (coordinate region)
+  "Return the bounds of COORDINATE, one of the coordinates of a placement, in REGION."
+  (destructuring-bind (axis min max) coordinate
+    (let ((bounds (rest (assoc axis (region-bounds region)))))
+      (cond ((null min) bounds)
+            ((eq min :middle)
+             (let ((middle (/ (reduce #'+ bounds) 2)))
+               (list (- middle (/ max 2)) (+ middle (/ max 2)))))
+            (t (list min max))))))
+
 (defun placement-parameters (placement region)
   "Return the PARAMETERs of the body of PLACEMENT in REGION."
-  (loop for (axis min max) in (placement-coordinates placement)
-        for (nil region-min region-max) = (assoc axis (region-bounds region))
-        collect (make-parameter (placement-body placement) axis
-                                (or min region-min) (or max region-max) nil
+  (loop for coordinate in (placement-coordinates placement)
+        for (min max) = (coordinate-range coordinate region)
+        collect (make-parameter (placement-body placement) (first coordinate) min max nil
                                 (and (not (region-box-p region)) region))))
 
 (defun body-parameters (domain trace body)
