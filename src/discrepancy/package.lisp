@@ -69,6 +69,8 @@ search, replay.")
    ;; replay
    #:save-discrepancy #:replay #:replay-result #:replay-status #:replay-verdict
    #:replay-discrepancy #:replay-text
+   #:replay-stopped #:replay-stopped-number #:replay-stopped-text #:replay-stopped-projection
+   #:finish-replay
    ;; shrinking
    #:shrink-discrepancy #:shrinking #:shrinking-discrepancy #:shrinking-original
    #:shrinking-boundary #:shrinking-runs #:shrinking-seconds #:shrinking-exhausted
