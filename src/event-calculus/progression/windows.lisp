@@ -16,7 +16,6 @@ inertial as a rule."
          (not (outline-late-p outline))
          (not (outline-dated-p outline))
          (null (outline-causes outline))
-         (null (ground-theory-absolute-clauses ground))
          (zerop (length (ground-theory-numerics ground)))
          (null (state-pending state))
          (loop for released across (state-released state)
