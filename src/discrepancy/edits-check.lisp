@@ -21,7 +21,8 @@ by DOMAIN, or NIL.  CONTEXT is a Z3 context."
                                (run-initial-state run))))
         (loop for (nil . proposition) in (ec:initial-conditions state)
               do (z3:solver-assert solver proposition))
-        (nth-value 1 (judge-steps domain solver state (refreshed-steps domain run)))))))
+        (nth-value 1 (judge-steps domain solver state (refreshed-steps domain run) nil
+                                  :consistent))))))
 
 (defun agreed-steps (domain run context)
   "Return with how many steps of RUN the theory of DOMAIN agrees; one more than there are if it

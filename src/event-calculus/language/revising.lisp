@@ -34,6 +34,7 @@ new theory is not registered.  Signals THEORY-ERROR."
          (revised (make-checked-theory
                    :name (theory-name theory) :documentation (theory-documentation theory)
                    :syntax (theory-syntax theory) :file (theory-file theory)
+                   :extended-files (theory-extended-files theory)
                    :sorts (theory-sorts theory) :predicates (theory-predicates theory)
                    :extensions (theory-extensions theory) :functions (theory-functions theory)
                    :fluents (theory-fluents theory)
@@ -48,13 +49,7 @@ new theory is not registered.  Signals THEORY-ERROR."
                    :time-range (theory-time-range theory)
                    :offset-range (theory-offset-range theory)
                    :options (theory-options theory))))
-    (dolist (constraint (theory-state-constraints theory) revised)
-      (register-state-constraint
-       revised
-       (make-state-constraint :name (state-constraint-name constraint) :theory revised
-                              :formula (state-constraint-formula constraint)
-                              :documentation (state-constraint-documentation constraint)
-                              :span (state-constraint-span constraint))))))
+    (inherit-state-constraints revised (list theory))))
 
 (defun effect-axioms (theory predicate event fluent)
   "Return the list of the axioms of THEORY that state an effect by PREDICATE (:initiates,
