@@ -264,7 +264,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "verification") (:file "trace-json") (:file "world")))
                (:module "coverage"
                 :serial t
-                :components ((:file "coverage") (:file "text") (:file "html")))))
+                :components ((:file "coverage") (:file "grounds") (:file "text") (:file "html")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -343,7 +343,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
                (:file "explain-text")
                (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
-               (:file "boundary") (:file "shrink")))
+               (:file "boundary") (:file "shrink") (:file "review")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."
