@@ -432,6 +432,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
                              (:file "regions") (:file "search") (:file "judgement")
+                             (:file "explain") (:file "review")
                              (:file "replay")
                              (:file "table-top") (:file "tolerances")))
                (:module "kitchen" :pathname "projection/" :serial t
