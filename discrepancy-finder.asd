@@ -265,7 +265,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "verification") (:file "trace-json") (:file "world")))
                (:module "coverage"
                 :serial t
-                :components ((:file "coverage") (:file "text") (:file "html")))))
+                :components ((:file "coverage") (:file "grounds") (:file "text") (:file "html")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -345,7 +345,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
                (:file "explain-text")
                (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
-               (:file "boundary") (:file "shrink") (:file "brute-force")
+               (:file "boundary") (:file "shrink") (:file "review") (:file "brute-force")
                (:file "refine") (:file "refine-text")
                (:file "result-json")))
 
@@ -445,6 +445,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
                              (:file "regions") (:file "search") (:file "judgement")
+                             (:file "explain") (:file "review")
                              (:file "replay")
                              (:file "table-top") (:file "tolerances") (:file "shrink")
                              (:file "side-by-side")))
