@@ -54,6 +54,7 @@
                 #:discrepancy-run #:discrepancy-judgement
                 #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
                 #:result-json #:explain-discrepancy #:explanation-text
+                #:refine-theory #:refinement-text
                 #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
                 #:shrink-discrepancy #:shrinking #:shrinking-text #:shrinking-discrepancy
                 #:shrinking-boundary
@@ -112,7 +113,7 @@
    #:discrepancy-judgement
    #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
    #:result-json #:write-report
-   #:explain-discrepancy #:explanation-text
+   #:explain-discrepancy #:explanation-text #:refine-theory #:refinement-text
    #:shrink-discrepancy #:shrinking #:shrinking-text #:shrinking-discrepancy #:shrinking-boundary
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
