@@ -153,7 +153,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "states") (:file "initial-states") (:file "resolve")
                              (:file "trajectories") (:file "numbers") (:file "turns")
                              (:file "successors") (:file "progress")
-                             (:file "footprints")))
+                             (:file "footprints") (:file "windows")))
                (:module "e-files"
                 :serial t
                 :components ((:file "conditions") (:file "tokens") (:file "expressions")
@@ -319,7 +319,7 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "conditions") (:file "normal") (:file "beta")
                (:file "student") (:file "least-squares") (:file "regression") (:file "rules")
                (:file "evidence") (:file "paper-rule") (:file "zero-failure")
-               (:file "prediction")))
+               (:file "prediction") (:file "worst-corners")))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
@@ -331,11 +331,19 @@ The environment variable CXX names another compiler than g++."))
                (:file "random") (:file "samplers") (:file "regions") (:file "observers")
                (:file "abstraction") (:file "parsing") (:file "parsing-observers")
                (:file "extending") (:file "define-abstraction")
-               (:file "catalog") (:file "sampling") (:file "execution") (:file "judgement")
-               (:file "results") (:file "search") (:file "report") (:file "scene-runs")
-               (:file "replay") (:file "replay-file")
+               (:file "catalog") (:file "sampling") (:file "meter") (:file "actions")
+               (:file "execution") (:file "judgement") (:file "comparisons")
+               (:file "results") (:file "search-results") (:file "search-state")
+               (:file "targets") (:file "trace-search") (:file "finds") (:file "statements")
+               (:file "report")
+               (:file "scene-runs") (:file "replay") (:file "replay-file")
+               (:file "store") (:file "journal") (:file "search")
                (:file "edits") (:file "edits-examples") (:file "edits-conditions")
                (:file "edits-effects") (:file "edits-outcomes") (:file "edits-check")
+               (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
+               (:file "explain-text")
+               (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
+               (:file "boundary") (:file "shrink")
                (:file "refine") (:file "refine-text")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
@@ -424,7 +432,7 @@ The environment variable CXX names another compiler than g++."))
                (:module "discrepancy"
                 :serial t
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
-                             (:file "regions") (:file "search")
+                             (:file "regions") (:file "search") (:file "judgement")
                              (:file "replay")
                              (:file "table-top") (:file "tolerances")))
                (:module "kitchen" :pathname "projection/" :serial t

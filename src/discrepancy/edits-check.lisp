@@ -21,7 +21,8 @@ by DOMAIN, or NIL.  CONTEXT is a Z3 context."
                                (run-initial-state run))))
         (loop for (nil . proposition) in (ec:initial-conditions state)
               do (z3:solver-assert solver proposition))
-        (nth-value 1 (judge-steps domain solver state (refreshed-steps domain run)))))))
+        (nth-value 1 (judge-steps domain solver state (refreshed-steps domain run) nil
+                                  :consistent))))))
 
 (defun agreement (domain run context)
   "Return how far the theory of DOMAIN agrees with RUN: twice the number of the steps before the

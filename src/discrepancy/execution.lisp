@@ -205,15 +205,16 @@ a sentence that says why not."
                                     (parameter-axis parameter)))
           '(simple-array double-float (*))))
 
-(defun run-monitored (monitor plan arguments)
-  "Run the function of PLAN (a symbol) under MONITOR and return how it ended.  Random numbers are
-the same in every run, and the same as in symbolic execution."
+(defun run-monitored (monitor plan function)
+  "Call FUNCTION, which does what PLAN (a symbol) does, under MONITOR and return how it ended.
+Random numbers are the same in every run, and the same as in symbolic execution."
+  (count-simulation)
   (let ((*random-state* (sb-ext:seed-random-state 0))
         (*gensym-counter* 0))
     (prog1 (catch monitor
              (plan:with-executive (monitor)
                (handler-case
-                   (progn (symbolic:call-plan plan plan arguments
+                   (progn (symbolic:call-plan plan function '()
                                               (lambda (condition)
                                                 (setf (monitor-fatal monitor) condition)))
                           :finished)
@@ -229,16 +230,25 @@ the same in every run, and the same as in symbolic execution."
 
 (defmacro with-open-projection ((variable form) &body body)
   "Evaluate BODY with VARIABLE bound to the projection that FORM makes, and close that afterwards."
-  `(let ((,variable ,form))
-     (unwind-protect (progn ,@body)
-       (projection:close-projection ,variable))))
+  `(call-timed (lambda ()
+                 (let ((,variable ,form))
+                   (unwind-protect (progn ,@body)
+                     (projection:close-projection ,variable))))))
 
-(defun execute-sample (domain plan sample &key trace (execution :trace) arguments
+(defun plan-function (plan arguments actions)
+  "Return a function that calls PLAN (a symbol) with ARGUMENTS, or, if there are ACTIONS, performs
+these."
+  (if actions
+      (lambda () (plan:ensure-top-level (lambda () (perform-actions actions)) plan))
+      (lambda () (apply plan arguments))))
+
+(defun execute-sample (domain plan sample &key trace (execution :trace) arguments actions
                                             (output (make-broadcast-stream)) (fidelity :fast)
                                             observer)
   "Run PLAN (a symbol) with ARGUMENTS in a new world of DOMAIN that begins with SAMPLE, and return
-the RUN.  With a TRACE the sample must map to its initial state, else the run is invalid and has no
-steps; EXECUTION is :TRACE or :PLAN, FIDELITY :FAST or :FULL.  What the plan prints goes to OUTPUT.
+the RUN; if there are ACTIONS, RECORDED-ACTIONs, perform these in the place of the plan.  With a
+TRACE the sample must map to its initial state, else the run is invalid and has no steps; EXECUTION
+is :TRACE or :PLAN, FIDELITY :FAST or :FULL.  What the plan prints goes to OUTPUT.
 OBSERVER is a function of a projection, a designator and a failure, or NIL, as for
 PROJECTION:WATCH-PROJECTION; it is called once more at the end.  The same arguments give the same
 bits, provided that the plan does not read global variables that it writes."
@@ -274,7 +284,8 @@ bits, provided that the plan does not read global variables that it writes."
                                                          (symbolic:trace-steps trace)
                                                          :none)))
                    (ending (let ((*standard-output* output))
-                             (run-monitored monitor plan arguments))))
+                             (run-monitored monitor plan
+                                              (plan-function plan arguments actions)))))
               (when observer
                 (funcall observer projection nil nil))
               (result ending (reverse (monitor-steps monitor))))

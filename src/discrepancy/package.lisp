@@ -8,6 +8,7 @@ search, replay.")
                     (#:symbolic #:discrepancy-finder.symbolic-execution)
                     (#:projection #:discrepancy-finder.projection)
                     (#:source #:discrepancy-finder.source)
+                    (#:desig #:discrepancy-finder.designators)
                     (#:json #:discrepancy-finder.json)
                     (#:foreign #:discrepancy-finder.foreign))
   (:import-from #:discrepancy-finder.symbolic-execution #:next-trace)
@@ -32,20 +33,48 @@ search, replay.")
    #:run-in-scene #:scene-run #:scene-run-ending #:scene-run-hash #:scene-run-text
    #:judge-run #:judgement #:judgement-verdict #:judgement-divergence
    #:divergence #:divergence-step #:divergence-fluents #:divergence-kind
+   #:judgement-comparison
+   ;; comparisons, step by step
+   #:step-comparisons #:step-comparison #:step-comparison-number #:step-comparison-step
+   #:step-comparison-verdict #:step-comparison-theory #:step-comparison-fluents
+   ;; explanations
+   #:explain-discrepancy #:explanation #:explanation-text #:explanation-json
+   #:explanation-step #:explanation-grounds #:explanation-influences #:explanation-edits
+   #:explanation-probes
+   #:influence #:influence-parameters #:influence-failing #:influence-agreeing
    ;; search
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-discrepancy
    #:result-discrepancies #:result-traces #:result-simulations #:result-iterations #:result-seed
    #:result-exploration #:result-text #:result-symbolic-seconds #:result-simulation-seconds
+   #:result-plan #:result-domain #:result-constraint #:result-parameters #:result-rule-name
+   #:result-rule #:result-confidence #:result-sampler #:result-acceptance-rate #:result-kinds
+   #:result-phases #:result-seconds #:result-solver-seconds #:result-reused #:result-stopped
+   #:search-phase #:phase-name #:phase-simulations #:phase-simulation-seconds #:phase-seconds
+   #:result-statement #:trace-result-statement #:trace-result-bound
+   #:request-stop #:stop-search
+   #:skip-sample #:retry-sample #:abort-trace
    #:trace-result #:trace-result-status #:trace-result-trace #:trace-result-verdict
-   #:trace-result-samples #:trace-result-runs #:trace-result-rejected #:trace-result-reason
+   #:trace-result-samples #:trace-result-rejected #:trace-result-reason
+   #:trace-result-blind #:trace-result-targeted #:trace-result-drawn #:trace-result-accepted
+   #:trace-result-left-trace #:trace-result-void #:trace-result-runs #:trace-result-warnings
+   #:trace-result-acceptance-rate #:trace-result-confidence #:trace-result-discrepancies
    #:discrepancy #:discrepancy-plan #:discrepancy-trace #:discrepancy-sample #:discrepancy-run
    #:discrepancy-judgement #:discrepancy-seed #:discrepancy-file #:discrepancy-text
-   #:discrepancy-parameters #:discrepancy-confirmed-p
+   #:discrepancy-parameters #:discrepancy-confirmed-p #:discrepancy-domain
+   #:discrepancy-constraint #:discrepancy-execution #:discrepancy-compare
+   #:discrepancy-comparison #:discrepancy-origin #:discrepancy-occurrences #:discrepancy-runs
+   #:discrepancy-kind #:kind-text #:discrepancy-explanation #:discrepancy-shrunk
    ;; plans and domains by name
    #:ensure-plan #:ensure-domain #:locate-file #:use-data-directories
    ;; replay
    #:save-discrepancy #:replay #:replay-result #:replay-status #:replay-verdict
    #:replay-discrepancy #:replay-text
+   ;; shrinking
+   #:shrink-discrepancy #:shrinking #:shrinking-discrepancy #:shrinking-original
+   #:shrinking-boundary #:shrinking-runs #:shrinking-seconds #:shrinking-exhausted
+   #:shrinking-text #:shrinking-json #:boundary #:boundary-parameter #:boundary-failing
+   #:boundary-passing #:boundary-text #:run-case
+   #:recorded-action #:recorded-action-text #:discrepancy-actions #:discrepancy-left-out
    ;; candidate edits of the theory
    #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
    #:edit-requirements #:edit-removes-p #:edit-contradicted #:edit-runs #:edited-theory
@@ -59,4 +88,5 @@ search, replay.")
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy
    #:continue-search #:next-trace #:accept
+   #:journal-error #:journal-error-file #:journal-error-reason
    #:invalid-argument))

@@ -16,6 +16,8 @@ them and why, and what they say of a state after known events.")
    #:sort-elements #:element-sort #:sort-name #:sort-parents #:sort-range #:sort-constants
    #:sort-terms
    #:axiom #:axiom-name #:axiom-label #:axiom-formula #:axiom-position
+   ;; pieces of a run: what a state alone decides
+   #:about-the-beginning-p #:self-contained-p #:formula-form
    ;; revised theories
    #:revised-theory #:effect-axioms #:event-axioms
    ;; names and atoms
@@ -45,7 +47,7 @@ them and why, and what they say of a state after known events.")
    #:possible-p #:consistent-p #:entailed-p #:consequences #:abduce
    ;; why
    #:why #:why-impossible #:why-inconsistent #:explanation #:explanation-core
-   #:explanation-sentences #:explanation-axioms
+   #:explanation-sentences #:explanation-axioms #:explanation-persistent
    ;; check
    #:check-theory #:finding #:finding-severity #:finding-kind #:finding-subject #:finding-text
    #:finding-position

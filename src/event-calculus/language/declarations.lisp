@@ -209,7 +209,7 @@ named after their theory, too."
                             &key extends name documentation syntax file sorts predicates
                               extensions functions fluents numeric-fluents non-inertial
                               manual-release events axioms completions exclusions time-range
-                              offset-range options)
+                              offset-range options extended-files)
   "Return the theory NAME of the given parts, which are as the readers of a THEORY return them;
 those of the theories EXTENDS come first.  Signals THEORY-ERROR if they do not fit together."
   (declare (ignore name documentation syntax file))
@@ -222,8 +222,9 @@ those of the theories EXTENDS come first.  Signals THEORY-ERROR if they do not f
            (or own (some reader extends))))
     (let ((theory
             (apply #'make-theory :allow-other-keys t
-                   :extended-files (remove-duplicates (mapcan #'theory-files extends)
-                                                      :test #'string= :from-end t)
+                   :extended-files (remove-duplicates
+                                    (append extended-files (mapcan #'theory-files extends))
+                                    :test #'string= :from-end t)
                    :sorts (all #'theory-sorts sorts)
                    :predicates (all #'theory-predicates predicates)
                    :extensions (all #'theory-extensions extensions)

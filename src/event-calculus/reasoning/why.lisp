@@ -7,14 +7,16 @@
 
 (in-package #:discrepancy-finder.event-calculus)
 
-(defstruct (explanation (:constructor make-explanation (theory question core sentences axioms))
+(defstruct (explanation (:constructor make-explanation (theory question core sentences axioms
+                                                               persistent))
                         (:copier nil))
   "Why FORMULA must or cannot be true: made by WHY and WHY-IMPOSSIBLE."
   (theory nil :type theory :read-only t)
   (question nil :type string :read-only t)
   (core '() :type list :read-only t)
   (sentences '() :type list :read-only t)
-  (axioms '() :type list :read-only t))
+  (axioms '() :type list :read-only t)
+  (persistent '() :type list :read-only t))
 
 (setf (documentation 'explanation-core 'function)
       "Return the minimal set of instances that an explanation rests on: a list of (name instance).
@@ -25,7 +27,10 @@ NAME is that of an axiom, or :inertia, :release, :not-released, :begin, :stop, :
 that takes a distinction of cases.")
 
 (setf (documentation 'explanation-axioms 'function)
-      "Return the list of the names of the theory's axioms that an explanation rests on.")
+      "Return the list of the names of the theory's axioms that an explanation rests on."
+      (documentation 'explanation-persistent 'function)
+      "Return the list of the (fluent timepoint) that an explanation takes to persist, by inertia, to
+the next timepoint.")
 
 (defmethod print-object ((explanation explanation) stream)
   (print-unreadable-object (explanation stream :type t)
@@ -90,6 +95,14 @@ sentence, to a contradiction, after which comes CONCLUSION."
                                (mapcar #'axiom-name (sentence-definitions thing)))))
    :from-end t))
 
+(defun persistent-fluents (reasoner core)
+  "Return a list of (fluent time) for the instances of inertia among the reasons CORE."
+  (let ((fluents (ground-theory-fluents (encoder-ground (reasoner-encoder reasoner)))))
+    (loop for reason in core
+          for source = (ground-reason-source reason)
+          when (eq (source-kind source) :inertia)
+            collect (list (svref fluents (source-thing source)) (ground-reason-time reason)))))
+
 (defun explain (theory question assumption claim supposition horizon)
   "Return the explanation why the formula ASSUMPTION is impossible, by deriving CLAIM, if any."
   (let ((horizon (check-horizon (as-theory theory)
@@ -109,7 +122,8 @@ sentence, to a contradiction, after which comes CONCLUSION."
                               :test #'equal :from-end t)
            (explanation-sentences-of reasoner core claim supposition
                                      (format nil "So ~a." question))
-           (core-axioms core)))))))
+           (core-axioms core)
+           (persistent-fluents reasoner core)))))))
 
 (defun as-theory (theory)
   (check-type theory (or theory reasoner symbol))

@@ -57,18 +57,29 @@ MANIPULATION-POSE-UNREACHABLE and MANIPULATION-GOAL-NOT-REACHED."
         (when reach (return reach))
         (when (eq why :collision) (setf reason why))))))
 
+(defun way-clear-p (projection arm start way)
+  "Return true if neither ARM nor its hand touches anything on WAY, which begins at START."
+  (loop for from = start then to
+        for to in way
+        always (way-free-p projection arm from to)))
+
 (defun retreat (projection arm)
   "Take the open hand of ARM straight back from where it is, or else upwards, as far as that is
-possible."
+possible.  What the hand was around is not to be pushed away: a way on which it touches nothing comes
+before one that is free only where it ends."
   (let* ((tool (tool-pose projection arm))
          (start (joint-positions (projection-robot projection)))
-         (way (loop for end in (list (advanced tool -0.12d0) (advanced tool -0.08d0)
-                                     (moved tool '(0d0 0d0 0.1d0)) (advanced tool -0.04d0)
-                                     (moved tool '(0d0 0.1d0 0d0)) (moved tool '(0d0 -0.1d0 0d0)))
-                    for way = (straight-way projection arm start tool end)
-                    when (and way (free-p projection arm (first (last way)))) return way)))
+         (ways (loop for end in (list (advanced tool -0.12d0) (advanced tool -0.08d0)
+                                      (moved tool '(0d0 0d0 0.1d0)) (advanced tool -0.04d0)
+                                      (moved tool '(0d0 0.1d0 0d0)) (moved tool '(0d0 -0.1d0 0d0)))
+                     for way = (with-present-grippers
+                                projection (straight-way projection arm start tool end))
+                     when (and way (free-p projection arm (first (last way)))) collect way)))
     ;; Touching something ends it: what was to be done is done.
-    (run-smoothly projection (with-present-grippers projection way) :watch :allow-hand)))
+    (run-smoothly projection
+                  (or (find-if (lambda (way) (way-clear-p projection arm start way)) ways)
+                      (first ways))
+                  :watch :allow-hand)))
 
 (defparameter *standing-tolerance* 0.02d0
   "What touches something within this distance (m) of where it is to be put stands there.")

@@ -1,0 +1,257 @@
+;;;; Which coordinates matter, and between which values.
+;;;;
+;;;; From the runs that a search has made, the one that agrees with the theory and is nearest to the
+;;;; failing one is taken.  PROBES, further runs from the failing sample with some coordinates
+;;;; changed, first find a smallest set of coordinates that have to be changed for theory and
+;;;; simulation to agree, then halve the way between what fails and what agrees.  What is left of
+;;;; the budget goes to the other coordinates, one at a time.  Probes are the same in every call.
+;;;; Entry point: FIND-INFLUENCES.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(defstruct (influence (:copier nil))
+  "That PARAMETERS, changed together and nothing else, decide: with the values FAILING, nearest to
+the boundary, the discrepancy shows, with AGREEING theory and simulation agree.  HERE are the values
+in the discrepancy's own sample."
+  (parameters '() :type list :read-only t)
+  (failing '() :type list :read-only t)
+  (agreeing '() :type list :read-only t)
+  (here '() :type list :read-only t))
+
+(setf (documentation 'influence-parameters 'function)
+      "Return the list of the PARAMETERs that decide together, as a rule one."
+      (documentation 'influence-failing 'function)
+      "Return the list of the values of the parameters of an influence, nearest to the boundary,
+with which the discrepancy shows."
+      (documentation 'influence-agreeing 'function)
+      "Return the list of the values of the parameters of an influence with which theory and
+simulation agree.")
+
+(defmethod print-object ((influence influence) stream)
+  (print-unreadable-object (influence stream :type t)
+    (format stream "~{~a~^, ~}" (mapcar #'parameter-name (influence-parameters influence)))))
+
+;;; Probes
+
+(defclass prober ()
+  ((discrepancy :initarg :discrepancy :reader prober-discrepancy)
+   (context :initarg :context :reader prober-context :documentation "A Z3 context.")
+   (left :initarg :left :accessor prober-left :documentation "The number of runs left.")
+   (deadline :initarg :deadline :reader prober-deadline
+             :documentation "The time (s) when there are no more runs, or NIL.")
+   (known :initform (make-hash-table :test 'equalp) :reader prober-known
+          :documentation "What came of the values that were tried.")
+   (runs :initform '() :accessor prober-runs
+         :documentation "The (run . judgement) of the valid runs, newest first."))
+  (:documentation "The runs around a discrepancy, and how many more there may be."))
+
+(defun same-kind-p (discrepancy run judgement)
+  "Return true if JUDGEMENT on RUN finds a discrepancy of the same kind as DISCREPANCY: the same kind
+of action and the same predicate, or failure, at which theory and simulation part first."
+  (flet ((kind (run judgement)
+           (let* ((divergence (judgement-divergence judgement))
+                  (step (nth (divergence-step divergence) (run-steps run))))
+             (list (divergence-kind divergence)
+                   (plan:desig-prop-value (run-step-designator step) :type)
+                   (if (eq (divergence-kind divergence) :outcome)
+                       (run-step-outcome step)
+                       (first (first (first (divergence-fluents divergence)))))))))
+    (and (eq (judgement-verdict judgement) :discrepancy)
+         (equal (kind run judgement)
+                (kind (discrepancy-run discrepancy) (discrepancy-judgement discrepancy))))))
+
+(defun agreeing-p (judgement)
+  (not (eq (judgement-verdict judgement) :discrepancy)))
+
+(defun exhausted-prober-p (prober)
+  (or (<= (prober-left prober) 0)
+      (and (prober-deadline prober)
+           (> (foreign:monotonic-seconds) (prober-deadline prober)))))
+
+(defun run-probe (prober values)
+  "Run the sample with VALUES, a vector, and return :AGREES, :FAILS or :OTHER."
+  (let* ((discrepancy (prober-discrepancy prober))
+         (trace (discrepancy-trace discrepancy))
+         (sample (make-sample (sample-index (discrepancy-sample discrepancy))
+                              (sample-parameters (discrepancy-sample discrepancy)) values))
+         (run (run-case discrepancy :sample sample)))
+    (decf (prober-left prober))
+    (if (eq (run-validity run) :valid)
+        (let ((judgement (judge-run (discrepancy-domain discrepancy) run trace
+                                    :compare (discrepancy-compare discrepancy)
+                                    :comparison (judgement-comparison
+                                                 (discrepancy-judgement discrepancy))
+                                    :context (prober-context prober))))
+          (push (cons run judgement) (prober-runs prober))
+          (cond ((agreeing-p judgement) :agrees)
+                ((same-kind-p discrepancy run judgement) :fails)
+                (t :other)))
+        :other)))
+
+(defun probe (prober values)
+  "Return what comes of VALUES: :AGREES, :FAILS, :OTHER (no valid sample, another discrepancy), or
+NIL if there may be no more runs."
+  (or (gethash values (prober-known prober))
+      (and (not (exhausted-prober-p prober))
+           (setf (gethash values (prober-known prober)) (run-probe prober values)))))
+
+;;; Values
+
+(defun failing-values (prober)
+  (sample-values (discrepancy-sample (prober-discrepancy prober))))
+
+(defun prober-parameters (prober)
+  (sample-parameters (discrepancy-sample (prober-discrepancy prober))))
+
+(defun mixed-values (prober numbers others fraction)
+  "Return the failing values, of which those with NUMBERS are moved towards OTHERS by FRACTION."
+  (let ((values (copy-seq (failing-values prober))))
+    (dolist (number numbers values)
+      (setf (aref values number)
+            (+ (* (- 1 fraction) (aref values number)) (* fraction (aref others number)))))))
+
+(defun sample-distance (prober values)
+  "Return how far VALUES are from the failing ones, each coordinate measured by its range."
+  (loop for parameter in (prober-parameters prober)
+        for one across (failing-values prober)
+        for other across values
+        unless (fixed-p parameter)
+          sum (expt (/ (- one other) (- (parameter-max parameter) (parameter-min parameter))) 2)))
+
+(defun nearest-agreeing-values (prober runs)
+  "Return the values nearest to the failing ones among those of RUNS, a list of (run . judgement),
+with which theory and simulation agree; or NIL."
+  (let ((best nil) (least nil))
+    (loop for (run . judgement) in runs
+          for values = (and (run-sample run) (sample-values (run-sample run)))
+          when (and values (agreeing-p judgement)
+                    (= (length values) (length (failing-values prober))))
+            do (let ((distance (sample-distance prober values)))
+                 (when (or (null least) (< distance least))
+                   (setf best values least distance))))
+    best))
+
+(defun free-numbers (prober)
+  "Return the numbers of the parameters that have more than one value."
+  (loop for parameter in (prober-parameters prober)
+        for number from 0
+        unless (fixed-p parameter) collect number))
+
+;;; A smallest set of coordinates
+
+(defun chunks (list size)
+  (loop while list
+        collect (loop repeat size while list collect (pop list))))
+
+(defun smallest-change (prober numbers others)
+  "Return a part of NUMBERS that has to be changed to the values in OTHERS for theory and simulation
+to agree; all of NUMBERS are enough.  No part of it can be left out, as far as the runs go."
+  (loop with size = (ceiling (length numbers) 2)
+        do (dolist (chunk (chunks numbers size))
+             (let ((rest (set-difference numbers chunk)))
+               (when (and rest (eq (probe prober (mixed-values prober rest others 1)) :agrees))
+                 (setf numbers (remove-if-not (lambda (number) (member number rest)) numbers)))))
+        until (or (= size 1) (null (rest numbers)))
+        do (setf size (max 1 (min (floor size 2) (floor (length numbers) 2)))))
+  numbers)
+
+(defparameter *halvings* 6
+  "So often the way between a failing and an agreeing value is halved.")
+
+(defun boundary-influence (prober numbers others)
+  "Return the influence of the coordinates with NUMBERS, which agree at the values in OTHERS."
+  (let ((fails 0d0) (agrees 1d0))
+    (loop repeat *halvings*
+          for middle = (/ (+ fails agrees) 2)
+          do (case (probe prober (mixed-values prober numbers others middle))
+               (:agrees (setf agrees middle))
+               (:fails (setf fails middle))
+               ;; Something else lies in between, or there are no more runs.
+               (t (return))))
+    (flet ((values-at (fraction)
+             (let ((values (mixed-values prober numbers others fraction)))
+               (loop for number in numbers collect (aref values number)))))
+      (make-influence :parameters (loop for number in numbers
+                                        collect (nth number (prober-parameters prober)))
+                      :here (values-at 0) :failing (values-at fails)
+                      :agreeing (values-at agrees)))))
+
+;;; One coordinate at a time
+
+(defun moved-values (prober number place)
+  "Return the failing values with coordinate NUMBER at PLACE of its range: in the :MIDDLE, at the
+:FAR end or at the :NEAR one."
+  (let* ((parameter (nth number (prober-parameters prober)))
+         (min (parameter-min parameter))
+         (max (parameter-max parameter))
+         ;; The upper bound belongs to the next region.
+         (below-max (- max (* 1d-6 (- max min))))
+         (middle (/ (+ min max) 2))
+         (values (copy-seq (failing-values prober))))
+    (setf (aref values number)
+          (ecase place
+            (:middle middle)
+            (:far (if (< (aref values number) middle) below-max min))
+            (:near (if (< (aref values number) middle) min below-max))))
+    values))
+
+(defun single-influences (prober numbers)
+  "Return the influences of the coordinates among NUMBERS that decide when they are moved alone, to
+the middle or an end of their range."
+  (let ((influences '()))
+    (dolist (place '(:middle :far :near))
+      (dolist (number numbers)
+        (let ((values (moved-values prober number place)))
+          (when (and (not (assoc number influences)) (eq (probe prober values) :agrees))
+            (push (cons number (boundary-influence prober (list number) values)) influences)))))
+    (mapcar #'cdr (sort influences #'< :key #'car))))
+
+(defun separation (runs number)
+  "Return how well a threshold for coordinate NUMBER tells the runs of RUNS, a list of (run .
+judgement), that agree from the others: the largest part of them that one threshold sorts right."
+  (let* ((entries (sort (loop for (run . judgement) in runs
+                              when (run-sample run)
+                                collect (cons (aref (sample-values (run-sample run)) number)
+                                              (agreeing-p judgement)))
+                        #'< :key #'car))
+         (total (length entries))
+         (good (count t entries :key #'cdr))
+         (best (max good (- total good)))
+         (below 0))
+    (loop for (nil . agrees) in entries
+          for seen from 1
+          do (when agrees (incf below))
+             ;; those that agree on one side, the others on the other
+             (let ((right (+ below (- (- total seen) (- good below)))))
+               (setf best (max best right (- total right)))))
+    (if (plusp total) (/ best total) 0)))
+
+;;; Entry point
+
+(defun find-influences (discrepancy runs &key (max-runs 30) max-seconds context)
+  "Return the list of the INFLUENCEs on DISCREPANCY, the list of (run . judgement) of the valid runs
+that were made to find them, and the number of all these runs, at most MAX-RUNS, begun within
+MAX-SECONDS.  RUNS is a list of (run . judgement) of valid runs of the same trace, CONTEXT a Z3
+context."
+  (let* ((prober (make-instance 'prober
+                                :discrepancy discrepancy :context context :left max-runs
+                                :deadline (and max-seconds
+                                               (+ (foreign:monotonic-seconds) max-seconds))))
+         (numbers (stable-sort (free-numbers prober) #'>
+                               :key (lambda (number) (separation runs number))))
+         (others (nearest-agreeing-values prober runs))
+         (decisive '()))
+    (setf (gethash (failing-values prober) (prober-known prober)) :fails)
+    (when others
+      (setf decisive (smallest-change
+                      prober
+                      (remove-if (lambda (number)
+                                   (= (aref others number) (aref (failing-values prober) number)))
+                                 (reverse numbers))
+                      others)))
+    (let ((influences (append
+                       (and decisive (list (boundary-influence prober decisive others)))
+                       (single-influences prober (if (rest decisive)
+                                                     numbers
+                                                     (set-difference numbers decisive))))))
+      (values influences (nreverse (prober-runs prober)) (- max-runs (prober-left prober))))))

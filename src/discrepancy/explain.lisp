@@ -1,0 +1,162 @@
+;;;; Explanations: why theory and simulation part, and what can be done about it.
+;;;;
+;;;; An EXPLANATION says which axioms, and which inertia, made the theory say what it says at the
+;;;; divergent step; which coordinates of the initial state decide, and between which values; and
+;;;; which edits of the theory would help.  Its GROUNDS are what the theory's side rests on: a
+;;;; verdict on a plan that rests on the same is in doubt (review.lisp).  EXPLAIN-DISCREPANCY is the
+;;;; entry point; explain-text.lisp has the words.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(defstruct (explanation (:copier nil))
+  "Why theory and simulation part in a discrepancy at STEP, counted from 0.  CLAIMS are what the
+theory says after the step, or would have said; ENDING is its claim that the step cannot have ended
+as it did, with the CONDITION under which it could, a clause; both are NIL where the states differ or
+the action binding has no such outcome, of which the names are OUTCOMES."
+  (step 0 :type (integer 0) :read-only t)
+  (action "" :type string :read-only t)
+  (event '() :type list :read-only t)
+  (kind :state :type (member :state :outcome) :read-only t)
+  (outcome "" :type string :read-only t)
+  (outcomes '() :type list :read-only t)
+  (claims '() :type list :read-only t)
+  (ending nil :type (or null claim) :read-only t)
+  (condition nil :type (or null string) :read-only t)
+  (grounds '() :type list :read-only t)
+  (influences '() :type list :read-only t)
+  (agreeing 0 :type (integer 0) :read-only t)
+  (differing 0 :type (integer 0) :read-only t)
+  (probes 0 :type (integer 0) :read-only t)
+  (edits '() :type list :read-only t))
+
+(setf (documentation 'explanation-step 'function)
+      "Return the number of the step that an explanation is about, counted from 0."
+      (documentation 'explanation-grounds 'function)
+      "Return what the theory's side of a discrepancy rests on: a list of (:axiom name), (:inertia
+fluent event) with the names of a fluent and of the event through which it persists, and (:binding
+class type) of an action binding; all are keywords."
+      (documentation 'explanation-influences 'function)
+      "Return the list of the INFLUENCEs: which coordinates decide, and between which values."
+      (documentation 'explanation-edits 'function)
+      "Return the list of the candidate EDITs of the theory."
+      (documentation 'explanation-probes 'function)
+      "Return the number of the runs that were made to find out which coordinates decide.")
+
+(defmethod print-object ((explanation explanation) stream)
+  (print-unreadable-object (explanation stream :type t)
+    (format stream "of step ~d,~{ ~a~}" (1+ (explanation-step explanation))
+            (mapcar #'ground-text (explanation-grounds explanation)))))
+
+;;; Grounds
+
+(defun ground-text (ground)
+  "Return what GROUND, an element of EXPLANATION-GROUNDS, is in words."
+  (ecase (first ground)
+    (:axiom (format nil "axiom ~a" (ec:name-text (second ground))))
+    (:inertia (format nil "inertia of ~a through ~a" (ec:name-text (second ground))
+                      (if (third ground) (ec:name-text (third ground)) "a step without event")))
+    (:binding (format nil "the binding of ~a ~a" (ec:name-text (second ground))
+                      (ec:name-text (third ground))))))
+
+(defun claim-grounds (claim)
+  "Return the grounds of CLAIM."
+  (append (loop for name in (claim-axioms claim) collect (list :axiom name))
+          (loop for (atom nil event) in (claim-persistent claim)
+                collect (list :inertia (first atom) (first event)))))
+
+(defun binding-ground (step)
+  "Return the ground that the action binding for the designator of STEP is."
+  (let ((designator (run-step-designator step)))
+    (list :binding (plan:designator-class-keyword designator)
+          (ec:name-keyword (plan:desig-prop-value designator :type)))))
+
+;;; The theory's side
+
+(defun expected-event (domain run trace number)
+  "Return the event that the theory expected in step NUMBER of RUN: that of the outcome in TRACE if
+RUN has followed it so far, else that of success."
+  (let ((expected (nth number (symbolic:trace-steps trace))))
+    (if (and expected
+             (every #'same-step-p (subseq (run-steps run) 0 number)
+                    (symbolic:trace-steps trace)))
+        (symbolic:step-event expected)
+        (let ((success (find :success (symbolic:action-outcomes
+                                       domain
+                                       (run-step-designator (nth number (run-steps run))))
+                             :key #'symbolic:outcome-name)))
+          (and success (symbolic:outcome-event success))))))
+
+(defun condition-text (domain outcome)
+  "Return the condition of OUTCOME as a clause, or NIL if it has none or cannot be told."
+  (let* ((formula (symbolic:outcome-condition outcome))
+         (form (and (consp formula)
+                    (ec:formula-form (symbolic:action-theory-ground domain) formula nil))))
+    (cond ((null form) nil)
+          ((eq (first form) :not)
+           (format nil "~a is false" (ec:formula-text (second form))))
+          (t (format nil "~a is true" (ec:formula-text form))))))
+
+(defun theory-side (discrepancy)
+  "Return a property list for MAKE-EXPLANATION: what the theory says in DISCREPANCY, and why."
+  (let* ((domain (discrepancy-domain discrepancy))
+         (run (discrepancy-run discrepancy))
+         (trace (discrepancy-trace discrepancy))
+         (divergence (judgement-divergence (discrepancy-judgement discrepancy)))
+         (number (divergence-step divergence))
+         (step (nth number (run-steps run)))
+         (outcome-p (eq (divergence-kind divergence) :outcome))
+         (moments (run-moments domain run trace number))
+         (event (if outcome-p (expected-event domain run trace number) (seen-event step)))
+         (claims (state-claims domain moments run number event (divergence-fluents divergence)))
+         (ending (and outcome-p (outcome-claim domain moments run number))))
+    (list :step number :action (princ-to-string (run-step-designator step))
+          :event event :kind (divergence-kind divergence)
+          :outcome (or (run-step-failure step) "success")
+          :outcomes (and outcome-p (null (run-step-candidates step))
+                         (mapcar #'symbolic:outcome-name
+                                 (symbolic:action-outcomes domain (run-step-designator step))))
+          :claims claims :ending ending
+          :condition (and outcome-p (run-step-candidates step)
+                          (condition-text domain (first (run-step-candidates step))))
+          :grounds (remove-duplicates
+                    (if outcome-p
+                        (cons (binding-ground step) (and ending (claim-grounds ending)))
+                        (mapcan #'claim-grounds claims))
+                    :test #'equal :from-end t))))
+
+;;; Entry point
+
+(defun judged-runs (discrepancy runs context)
+  "Return RUNS, valid runs of the trace of DISCREPANCY or pairs (run . judgement), as such pairs."
+  (loop for entry in runs
+        collect (if (consp entry)
+                    entry
+                    (cons entry
+                          (judge-run (discrepancy-domain discrepancy) entry
+                                     (discrepancy-trace discrepancy)
+                                     :compare (discrepancy-compare discrepancy)
+                                     :comparison (judgement-comparison
+                                                  (discrepancy-judgement discrepancy))
+                                     :context context)))))
+
+(defun explain-discrepancy (discrepancy &key (runs (known-runs discrepancy)) (max-runs 30)
+                                          max-seconds)
+  "Return the EXPLANATION of DISCREPANCY.  RUNS are the valid runs of its trace so far, or pairs (run
+. judgement).  At most MAX-RUNS further runs, begun within MAX-SECONDS (NIL: no limit), find out
+which coordinates decide; with 0 none are made.  EXPLANATION-TEXT tells it in words."
+  (z3:with-context (context)
+    (let* ((known (judged-runs discrepancy runs context))
+           (known (if (find (discrepancy-run discrepancy) known :key #'car)
+                      known
+                      (append known (list (cons (discrepancy-run discrepancy)
+                                                (discrepancy-judgement discrepancy)))))))
+      (multiple-value-bind (influences probes count)
+          (find-influences discrepancy known :max-runs max-runs :max-seconds max-seconds
+                                             :context context)
+        (apply #'make-explanation
+               :influences influences :probes count
+               :agreeing (count-if #'agreeing-p known :key #'cdr)
+               :differing (count-if-not #'agreeing-p known :key #'cdr)
+               :edits (candidate-edits discrepancy
+                                       :runs (mapcar #'car (append known probes)))
+               (theory-side discrepancy))))))

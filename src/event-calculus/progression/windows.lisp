@@ -1,0 +1,40 @@
+;;;; Windows: what a state alone decides.
+;;;;
+;;;; To ask why something follows after many steps, it is enough to look at the last few: if the
+;;;; future of a state depends on its fluents and on nothing before, a run can be told from there,
+;;;; with the fluents as facts.
+
+(in-package #:discrepancy-finder.event-calculus)
+
+(defun self-contained-p (state)
+  "Return true if what the theory says of the time after STATE depends on the truth values of its
+fluents alone: on no earlier timepoints, no numbers, no fluents that are or may be released but are
+inertial as a rule."
+  (let* ((outline (state-outline state))
+         (ground (outline-ground outline)))
+    (and (not (outline-memory-p outline))
+         (not (outline-late-p outline))
+         (not (outline-dated-p outline))
+         (null (outline-causes outline))
+         (null (ground-theory-absolute-clauses ground))
+         (zerop (length (ground-theory-numerics ground)))
+         (null (state-pending state))
+         (loop for released across (state-released state)
+               for release across (outline-release outline)
+               always (or (null released) (eq release :always))))))
+
+(defun formula-form (ground formula time)
+  "Return the ground state FORMULA of GROUND as a formula about the timepoint TIME, or as a state
+formula if that is NIL; or NIL if it speaks of more than fluents and timeless atoms."
+  (labels ((form (formula)
+             (cond ((eq formula t) '(:and))
+                   ((null formula) '(:or))
+                   ((member (first formula) '(:and :or :not :iff))
+                    (cons (first formula) (mapcar #'form (rest formula))))
+                   ((eq (first formula) :fluent)
+                    (let ((atom (svref (ground-theory-fluents ground) (second formula))))
+                      (if time (list :holds-at atom time) atom)))
+                   ((eq (first formula) :static)
+                    (aref (atom-table-atoms (ground-theory-statics ground)) (second formula)))
+                   (t (return-from formula-form nil)))))
+    (form formula)))
