@@ -1,9 +1,8 @@
 ;;;; What the plans in the kitchen have in common: where the robot stands for what, and how it takes
 ;;;; an object from the workspace or out of a drawer and brings it to the table.
 ;;;;
-;;;; The poses are fixed, as in the paper's plans.  The left arm carries; the right arm opens and
-;;;; closes the drawers, whose handles are 0.2 m to the right of where the robot stands for them.
-;;;; What is carried is lifted to 1 m before the arm is parked, above drawers and counter.
+;;;; The poses are fixed, as in the paper's plans.  The right arm opens and closes the drawers, whose
+;;;; handles are 0.1 m to the right of where the robot stands for them; the left arm carries.
 ;;;;
 ;;;; A plan's file loads this one by
 ;;;;   (load-plan (merge-pathnames "kitchen-functions.lisp" *load-truename*))
@@ -13,11 +12,11 @@
 (defun place-before (where)
   "Return the base pose before the workspace, the table, or drawer 1, 2 or 3."
   (ecase where
-    (:workspace (make-pose -1.4 0.1 0 :yaw pi))
+    (:workspace (make-pose -1.37 0.14 0 :yaw pi))
     (:table (make-pose -0.3 0 0))
-    (:drawer-1 (make-pose -1.06 -0.4 0 :yaw pi))
-    (:drawer-2 (make-pose -1.06 0.2 0 :yaw pi))
-    (:drawer-3 (make-pose -1.06 0.8 0 :yaw pi))))
+    (:drawer-1 (make-pose -1.1 -0.7 0 :yaw pi))
+    (:drawer-2 (make-pose -1.1 -0.1 0 :yaw pi))
+    (:drawer-3 (make-pose -1.1 0.5 0 :yaw pi))))
 
 (defun inside-drawer (drawer)
   "Return a point in the middle of an open drawer."
@@ -27,9 +26,9 @@
   "Return where an object of TYPE is wanted."
   (ecase type
     (:bowl (make-pose 0.3 0.1 0.7885))
-    (:cereal (make-pose 0.35 0.35 0.867))
+    (:cereal (make-pose 0.4 0.5 0.867))
     (:milk (make-pose 0.3 -0.15 0.852))
-    (:spoon (make-pose 0.25 -0.35 0.7645))))
+    (:spoon (make-pose 0.2 -0.3 0.7645))))
 
 (def-cram-function stand-before (where)
   "Drive to the fixed place before WHERE: :WORKSPACE, :TABLE, :DRAWER-1, :DRAWER-2 or :DRAWER-3."
@@ -61,15 +60,13 @@
   (lift-torso 0.25)
   (grasp-with :left (detect-at (make-pose -2.1 0 0.9) type)))
 
-(def-cram-function open-the-drawer (?drawer)
-  (perform (an action (type opening) (object (an object (type drawer) (name ?drawer)))
-                      (arm :right)))
-  (park-the-arm :right))
+(def-cram-function open-the-drawer (?drawer &optional (?arm :right))
+  (perform (an action (type opening) (object (an object (type drawer) (name ?drawer))) (arm ?arm)))
+  (park-the-arm ?arm))
 
-(def-cram-function close-the-drawer (?drawer)
-  (perform (an action (type closing) (object (an object (type drawer) (name ?drawer)))
-                      (arm :right)))
-  (park-the-arm :right))
+(def-cram-function close-the-drawer (?drawer &optional (?arm :right))
+  (perform (an action (type closing) (object (an object (type drawer) (name ?drawer))) (arm ?arm)))
+  (park-the-arm ?arm))
 
 (def-cram-function detect-in-drawer (drawer type)
   "Look into the open DRAWER and return the object of TYPE that is detected in it, or NIL."
@@ -78,10 +75,10 @@
          (return nil)))
     (detect-at (inside-drawer drawer) type)))
 
-(def-cram-function put-on-the-table (?object)
-  "Carry ?OBJECT, which the left hand holds, to the table and place it where it is wanted."
+(def-cram-function put-on-the-table (?object &optional (?arm :left))
+  "Carry ?OBJECT, which the hand of ?ARM holds, to the table and place it where it is wanted."
   (stand-before :table)
   (let ((?target (target-on-the-table (desig-prop-value ?object :type))))
-    (perform (an action (type placing) (object ?object) (arm :left)
+    (perform (an action (type placing) (object ?object) (arm ?arm)
                         (target (a location (pose ?target)))))
-    (park-the-arm :left)))
+    (park-the-arm ?arm)))

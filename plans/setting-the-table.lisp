@@ -8,16 +8,18 @@
 (def-cram-function take-from-a-drawer (type)
   "Open one drawer after the other until an object of TYPE is detected in it; take that out, and
 return it.  Close each drawer again."
-  (lift-torso 0.02)
   (dolist (drawer '(:drawer-1 :drawer-2 :drawer-3)
                   (fail 'object-nowhere-to-be-found :description "no drawer holds it"))
     (stand-before drawer)
+    (lift-torso 0.02)
     (open-the-drawer drawer)
     (let ((object (detect-in-drawer drawer type)))
       (when object
         (grasp-with :left object))
       (close-the-drawer drawer)
       (when object
+        ;; The torso sank to bring the hand to the handle.
+        (lift-torso 0.25)
         (return object)))))
 
 (def-top-level-cram-function setting-the-table (&optional (types '(:bowl :cereal :milk :spoon)))

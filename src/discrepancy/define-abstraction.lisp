@@ -126,8 +126,9 @@
   (:placement (FLUENT ?sort) :body NAME :coordinates (coordinate*))
                               the fluent holds of the region, named as an element of the sort, in
                               which the body is; other arguments are elements.  A coordinate is an
-                              axis that regions bound, (axis min max), or (axis value); the first
-                              two are sampled
+                              axis that regions bound, (axis min max), (axis (middle width)),
+                              which is as wide in the middle of the region, or (axis value); all but
+                              the last are sampled
   (:joint (FLUENT element*) :joint \"name\" :range (min max) [:otherwise (min max)])
                               the fluent holds if the joint's position is in the range; where no
                               fluent of the joint holds it is drawn from the other one

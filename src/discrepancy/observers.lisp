@@ -9,7 +9,8 @@
 (defstruct (placement (:copier nil))
   "The fluent PATTERN, whose argument with the number PLACE stands for a region, holds of the region
 that the pose of BODY lies in.  COORDINATES is a list of (axis min max), what is sampled; without
-min and max the region bounds the axis.  REGIONS are the candidates."
+min and max the region bounds the axis, and with :MIDDLE for MIN the axis has the width MAX in the
+middle of these bounds.  REGIONS are the candidates."
   (pattern '() :type list :read-only t)
   (place 0 :type (integer 0) :read-only t)
   (body nil :type keyword :read-only t)

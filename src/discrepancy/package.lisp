@@ -84,9 +84,15 @@ search, replay.")
    #:refinement-steps #:refinement-status #:refinement-reason #:refinement-simulations
    #:refinement-runs #:refinement-results #:refinement-text #:refinement-step
    #:refinement-step-discrepancy #:refinement-step-edit #:refinement-step-alternatives
+   ;; results as JSON, and what pictures of them need
+   #:result-json #:sample-poses #:sample-joints #:sample-parameters #:write-file-whole #:run-sample
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy
    #:continue-search #:next-trace #:accept
    #:journal-error #:journal-error-file #:journal-error-reason
-   #:invalid-argument))
+   #:invalid-argument
+   ;; simulation without a trace
+   #:simulate-blindly #:allowed-initial-states #:blind-result #:blind-result-simulations
+   #:blind-result-rejected #:blind-result-kinds #:blind-result-discrepancy
+   #:blind-result-seconds))

@@ -4,15 +4,29 @@
 
 ;;; Placements
 
+(defun middle-width (entry)
+  "Return the width if ENTRY is (axis (middle width)), else NIL."
+  (and (alexandria:proper-list-p entry) (= (length entry) 2)
+       (alexandria:proper-list-p (second entry)) (= (length (second entry)) 2)
+       (destructuring-bind (operator width) (second entry)
+         (and operator (symbolp operator) (eq (ec:name-keyword operator) :middle)
+              (realp width) (plusp width)
+              width))))
+
 (defun parse-coordinate (name clause entry regions)
   "Return (axis min max) for ENTRY: an axis that every region of REGIONS bounds, (axis min max), or
-(axis value)."
+(axis value); or (axis :middle width) for (axis (middle width))."
   (let* ((axis (first (alexandria:ensure-list entry)))
          (axis (and axis (symbolp axis) (ec:name-keyword axis))))
     (cond ((and (alexandria:proper-list-p entry) (= (length entry) 2) (assoc axis *axes*)
                 (realp (second entry)))
            (let ((value (decimal-double (second entry))))
              (list axis value value)))
+          ((middle-width entry)
+           (unless (every (lambda (region) (assoc axis (region-bounds region))) regions)
+             (abstraction-problem name clause "the coordinate ~(~a~) is bounded by no region, so ~
+                                               that there is no middle of it" axis))
+           (list axis :middle (decimal-double (middle-width entry))))
           ((and (consp entry) (rest entry))
            (first (parse-bounds name clause (list (cons axis (rest entry))))))
           ((not (assoc axis *axes*))

@@ -106,15 +106,24 @@ the order in which they were made, the discrepancy's own last; at most 1000."
             :step))
       (ec:name-keyword (or (plan:desig-prop-value designator :type) :step))))
 
+(defun intended-event (discrepancy number designator)
+  "Return the event that the trace of DISCREPANCY has for DESIGNATOR at step NUMBER, or NIL; where
+there is no trace, that of the action binding."
+  (let ((trace (discrepancy-trace discrepancy)))
+    (if trace
+        (let ((expected (nth number (symbolic:trace-steps trace))))
+          (and expected
+               (string= (princ-to-string designator)
+                        (princ-to-string (symbolic:step-designator expected)))
+               (symbolic:step-event expected)))
+        (some #'symbolic:outcome-event
+              (symbolic:action-outcomes (discrepancy-domain discrepancy) designator)))))
+
 (defun step-action (discrepancy number step)
   "Return the name of the event that the theory has for STEP, the step NUMBER of the run of
 DISCREPANCY; of one that means no event the type of the designator."
-  (let* ((expected (nth number (symbolic:trace-steps (discrepancy-trace discrepancy))))
-         (event (or (and expected
-                         (string= (princ-to-string (run-step-designator step))
-                                  (princ-to-string (symbolic:step-designator expected)))
-                         (symbolic:step-event expected))
-                    (some #'symbolic:outcome-event (run-step-candidates step)))))
+  (let ((event (or (intended-event discrepancy number (run-step-designator step))
+                   (some #'symbolic:outcome-event (run-step-candidates step)))))
     (if event
         (first event)
         (designator-type-of (run-step-designator step)))))
