@@ -448,7 +448,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "explain") (:file "review")
                              (:file "replay") (:file "search-phases") (:file "journal")
                              (:file "table-top") (:file "tolerances") (:file "shrink")
-                             (:file "side-by-side")))
+                             (:file "side-by-side") (:file "edits") (:file "refinement")))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
