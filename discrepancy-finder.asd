@@ -437,6 +437,7 @@ The environment variable CXX names another compiler than g++."))
                (:module "drawers" :pathname "plans/"
                 :components ((:file "looking-into-drawers")))
                (:file "interface") (:file "theory-commands") (:file "readme")
+               (:file "tutorial")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
   :perform (asdf:test-op (operation system)
