@@ -457,7 +457,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "interface") (:file "interface-search")
                (:module "report" :serial t
                 :components ((:file "results") (:file "pages") (:file "browser")))
-               (:file "theory-commands") (:file "readme")
+               (:file "theory-commands") (:file "readme") (:file "tutorial")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
   :perform (asdf:test-op (operation system)
