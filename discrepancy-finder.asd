@@ -61,7 +61,8 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "repl") (:file "command-line") (:file "simulate")
                (:file "subcommands")
-               (:file "theory-commands") (:file "image"))
+               (:file "theory-commands")
+               (:file "table1") (:file "table1-text") (:file "table1-command") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
 (asdf:defsystem "discrepancy-finder/geometry"
