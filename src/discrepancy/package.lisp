@@ -79,6 +79,13 @@ search, replay.")
    #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
    #:edit-requirements #:edit-removes-p #:edit-contradicted #:edit-runs #:edited-theory
    #:edited-domain
+   ;; refinement
+   #:refine-theory #:refinement #:refinement-domain #:refinement-initial-domain
+   #:refinement-steps #:refinement-status #:refinement-reason #:refinement-simulations
+   #:refinement-runs #:refinement-results #:refinement-text #:refinement-step
+   #:refinement-step-discrepancy #:refinement-step-edit #:refinement-step-alternatives
+   ;; results as JSON, and what pictures of them need
+   #:result-json #:sample-poses #:sample-joints #:sample-parameters #:write-file-whole #:run-sample
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy

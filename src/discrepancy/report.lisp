@@ -31,7 +31,7 @@
           (state-text (ec:state-fluents (symbolic:trace-final-state trace)))))
 
 (defun describe-sample (domain sample stream)
-  (format stream "  initial state of the simulation (sample ~d)~%" (sample-index sample))
+  (format stream "  initial state of the simulation~@[ (sample ~d)~]~%" (sample-index sample))
   (let ((poses (sample-poses (domain-scene domain) sample)))
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
@@ -62,11 +62,20 @@
           do (format stream "    ~a: theory ~:[false~;true~], simulation ~:[false~;true~]~%"
                      (ec:atom-text atom) theory simulation))))
 
+(defun describe-shrinking (discrepancy stream)
+  "Tell what of DISCREPANCY is not as plan and scene have it, if it was shrunk."
+  (when (discrepancy-actions discrepancy)
+    (format stream "  these actions are performed without the plan~%"))
+  (when (discrepancy-left-out discrepancy)
+    (format stream "  left out of the world: ~{~a~^, ~}~%"
+            (mapcar #'ec:name-text (discrepancy-left-out discrepancy)))))
+
 (defun discrepancy-text (discrepancy &key (command "./discrepancy-finder"))
   "Return a text of several lines that tells DISCREPANCY: the trace, the initial state, where theory
 and simulation part, both final states, and how COMMAND replays it."
   (with-output-to-string (stream)
     (describe-trace (discrepancy-trace discrepancy) stream)
+    (describe-shrinking discrepancy stream)
     (describe-sample (discrepancy-domain discrepancy) (discrepancy-sample discrepancy) stream)
     (describe-divergence discrepancy stream)
     (format stream "  final state~%    theory:     ~a~%    simulation: ~a~@[ (stopped after step ~

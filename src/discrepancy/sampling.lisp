@@ -53,13 +53,14 @@ a tolerance."
             (parameter-max parameter))))
 
 (defstruct (sample (:constructor make-sample (index parameters values)) (:copier nil))
-  "A continuous initial state: VALUES (a vector of double floats) of PARAMETERS (a list)."
-  (index 0 :type (integer 0) :read-only t)
+  "A continuous initial state: VALUES (a vector of double floats) of PARAMETERS (a list).  INDEX is
+NIL if it was not drawn."
+  (index 0 :type (or null (integer 0)) :read-only t)
   (parameters '() :type list :read-only t)
   (values #() :type vector :read-only t))
 
 (setf (documentation 'sample-index 'function)
-      "Return the number of a sample, counted from 0."
+      "Return the number of a sample, counted from 0, or NIL if it was not drawn."
       (documentation 'sample-values 'function)
       "Return the vector of the values of a sample (m, rad), in the order of its parameters.")
 
@@ -89,7 +90,7 @@ a tolerance."
 
 (defmethod print-object ((sample sample) stream)
   (print-unreadable-object (sample stream :type t)
-    (format stream "~d: ~a" (sample-index sample) (sample-text sample))))
+    (format stream "~@[~d: ~]~a" (sample-index sample) (sample-text sample))))
 
 (defun placements (domain)
   (remove-if-not #'placement-p (domain-observers domain)))
