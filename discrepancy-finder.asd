@@ -445,14 +445,15 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
                              (:file "regions") (:file "search") (:file "judgement")
+                             (:file "brute-force")
                              (:file "replay")
                              (:file "table-top") (:file "tolerances") (:file "shrink")))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
                (:module "drawers" :pathname "plans/"
-                :components ((:file "looking-into-drawers")))
-               (:file "interface") (:file "theory-commands") (:file "readme")
+                :components ((:file "setting-the-table") (:file "looking-into-drawers")))
+               (:file "interface") (:file "theory-commands") (:file "table1") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
   :perform (asdf:test-op (operation system)

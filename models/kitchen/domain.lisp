@@ -15,7 +15,7 @@ drawer, wherever on it or in it."
   (:region before-drawer-2 (box (x -1.2 -1) (y -0.2 0.0)))
   (:region before-drawer-3 (box (x -1.2 -1) (y 0.4 0.6)))
   (:region workspace (box (x -2.5 -1.9) (y -1 1) (z 0.85 0.98)))
-  (:region table (box (x 0.1 0.9) (y -0.8 0.8) (z 0.75 0.89)))
+  (:region table (box (x 0.1 0.9) (y -0.8 0.8) (z 0.6 0.89)))
   (:region drawer-1 (box (x -2.4 -1.5) (y -0.85 -0.35) (z 0.58 0.7)))
   (:region drawer-2 (box (x -2.4 -1.5) (y -0.25 0.25) (z 0.58 0.7)))
   (:region drawer-3 (box (x -2.4 -1.5) (y 0.35 0.85) (z 0.58 0.7)))

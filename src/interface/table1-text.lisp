@@ -46,7 +46,8 @@
                           (discrepancy:judgement-divergence
                            (discrepancy-judgement discrepancy))))
                  (failure (discrepancy:run-step-failure (nth number (run-steps run)))))
-            (format stream "~a~@[~%         ~a~]~%" discrepancy failure))
+            (format stream "~a~@[~%         ~a~]~%"
+                    (discrepancy:discrepancy-summary discrepancy) failure))
           (format stream "~a~%" (found-text (first-result row)))))))
 
 ;;; Several seeds
@@ -78,7 +79,7 @@
               (distribution-text (mapcar #'looking-simulations results))
               (reduce #'+ results :key #'discrepancy:result-seconds))
       (loop for (found . count) in (counted (mapcar #'found-text results))
-            do (format stream "  found ~d time~:p: ~a~%" count found)))))
+            do (format stream "  found ~a: ~d time~:p~%" found count)))))
 
 ;;; Random simulation
 
@@ -98,7 +99,7 @@
                     (let ((vain (count nil found :key #'discrepancy:blind-result-discrepancy)))
                       (and (plusp vain) vain)))
             (loop for (kind . count) in (met-kinds found)
-                  do (format stream "  met ~d time~:p: ~{~(~a~)~^, ~}~%" count kind)))
+                  do (format stream "  met ~{~(~a~)~^, ~}: ~d time~:p~%" kind count)))
           (format stream "  nothing to look for~%")))))
 
 (defun met-kinds (results)

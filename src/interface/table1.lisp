@@ -10,11 +10,12 @@
 (in-package #:discrepancy-finder)
 
 (defstruct (paper-search (:copier nil))
-  "A row of Table I.  The paper needed ITERATIONS, SIMULATIONS and SECONDS for FOUND."
+  "A row of Table I.  DOMAIN is a domain or its name.  The paper needed ITERATIONS, SIMULATIONS and
+SECONDS for FOUND."
   (title "" :type string :read-only t)
   (plan nil :type symbol :read-only t)
   (plan-file "" :type string :read-only t)
-  (domain nil :type keyword :read-only t)
+  (domain nil :read-only t)
   (domain-file "" :type string :read-only t)
   (constraint nil :type keyword :read-only t)
   (iterations 0 :type (integer 0) :read-only t)
