@@ -55,12 +55,13 @@ The environment variable CXX names another compiler than g++."))
   :description "Finds out where a Discrete Event Calculus model of a robot's world is wrong."
   :version "0.1.0"
   :license "MIT"
-  :depends-on ("discrepancy-finder/discrepancy" "discrepancy-finder/json"
-               "alexandria" "command-line-arguments")
+  :depends-on ("discrepancy-finder/discrepancy" "discrepancy-finder/report"
+               "discrepancy-finder/json" "alexandria" "command-line-arguments")
   :pathname "src/interface/"
   :serial t
-  :components ((:file "package") (:file "repl") (:file "command-line") (:file "simulate")
-               (:file "subcommands")
+  :components ((:file "package") (:file "repl") (:file "command-line") (:file "progress")
+               (:file "simulate") (:file "subcommands") (:file "find-command")
+               (:file "plan-commands") (:file "discrepancy-commands")
                (:file "theory-commands") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
@@ -131,7 +132,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "formula") (:file "axioms") (:file "declarations")
                              (:file "clauses") (:file "state-constraints")
                              (:file "extending") (:file "define-theory") (:file "foundations")
-                             (:file "variants") (:file "revising")))
+                             (:file "revising")))
                (:module "grounding"
                 :serial t
                 :components ((:file "ground-theory") (:file "compiler") (:file "numeric")
@@ -287,7 +288,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "projection") (:file "building") (:file "observations")
                              (:file "performing")))
                (:module "motions" :serial t
-                :components ((:file "profiles") (:file "runner") (:file "head")
+                :components ((:file "profiles") (:file "trail") (:file "runner") (:file "head")
                              (:file "torso")))
                (:module "navigation" :serial t
                 :components ((:file "terrain") (:file "footing") (:file "connection")
@@ -319,7 +320,7 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "conditions") (:file "normal") (:file "beta")
                (:file "student") (:file "least-squares") (:file "regression") (:file "rules")
                (:file "evidence") (:file "paper-rule") (:file "zero-failure")
-               (:file "prediction")))
+               (:file "prediction") (:file "worst-corners")))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
@@ -331,16 +332,30 @@ The environment variable CXX names another compiler than g++."))
                (:file "random") (:file "samplers") (:file "regions") (:file "observers")
                (:file "abstraction") (:file "parsing") (:file "parsing-observers")
                (:file "extending") (:file "define-abstraction")
-               (:file "catalog") (:file "sampling") (:file "actions") (:file "execution")
-               (:file "judgement") (:file "comparisons")
-               (:file "results") (:file "search") (:file "report") (:file "scene-runs")
-               (:file "replay") (:file "replay-file")
+               (:file "catalog") (:file "sampling") (:file "meter") (:file "actions")
+               (:file "execution") (:file "judgement") (:file "comparisons")
+               (:file "results") (:file "search-results") (:file "search-state")
+               (:file "targets") (:file "trace-search") (:file "finds") (:file "statements")
+               (:file "report")
+               (:file "scene-runs") (:file "action-json") (:file "replay") (:file "replay-file")
+               (:file "store") (:file "journal") (:file "search")
                (:file "edits") (:file "edits-examples") (:file "edits-conditions")
                (:file "edits-effects") (:file "edits-outcomes") (:file "edits-check")
                (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
                (:file "explain-text")
                (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
-               (:file "boundary") (:file "shrink")))
+               (:file "boundary") (:file "shrink") (:file "brute-force")
+               (:file "refine") (:file "refine-text")
+               (:file "result-json")))
+
+(asdf:defsystem "discrepancy-finder/report"
+  :description "Results of searches as pages for a browser."
+  :depends-on ("discrepancy-finder/discrepancy" "discrepancy-finder/json")
+  :pathname "src/report/"
+  :serial t
+  :components ((:file "package") (:file "html") (:file "style") (:file "shots") (:file "sheet")
+               (:file "regions") (:file "labels") (:file "map") (:file "strips")
+               (:file "timeline") (:file "why") (:file "page")))
 
 (asdf:defsystem "discrepancy-finder/cram-compat"
   :description "CRAM's global packages, for its plan files, where CRAM itself is absent."
@@ -430,10 +445,12 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
                              (:file "regions") (:file "search") (:file "judgement")
                              (:file "replay")
-                             (:file "table-top") (:file "tolerances")))
+                             (:file "table-top") (:file "tolerances") (:file "shrink")))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
+               (:module "drawers" :pathname "plans/"
+                :components ((:file "looking-into-drawers")))
                (:file "interface") (:file "theory-commands") (:file "readme")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))

@@ -36,19 +36,44 @@ from."
   (remove nil (append (list (domain-file domain)) (domain-extended-files domain)
                       (ec:theory-files (symbolic:action-theory-theory domain)))))
 
+(defun changed-domain (domain &key (scene (domain-scene domain))
+                                (observers (domain-observers domain)))
+  "Return a domain like DOMAIN with another SCENE and other OBSERVERS."
+  (make-instance 'domain
+                 :name (symbolic:action-theory-name domain)
+                 :theory (symbolic:action-theory-theory domain)
+                 :actions (symbolic:action-theory-actions domain)
+                 :documentation (domain-documentation domain)
+                 :scene scene :regions (domain-regions domain) :observers observers
+                 :file (domain-file domain) :extended-files (domain-extended-files domain)
+                 :clauses (domain-clauses domain)))
+
 (defun domain-with-parameters (domain parameters)
   "Return DOMAIN with the scene parameters in PARAMETERS, a property list of names and reals,
 changed.  Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
   (if parameters
-      (make-instance 'domain
-                     :name (symbolic:action-theory-name domain)
-                     :theory (symbolic:action-theory-theory domain)
-                     :actions (symbolic:action-theory-actions domain)
-                     :documentation (domain-documentation domain)
-                     :scene (projection:scene-with-parameters (domain-scene domain) parameters)
-                     :regions (domain-regions domain) :observers (domain-observers domain)
-                     :file (domain-file domain)
-                     :extended-files (domain-extended-files domain) :clauses (domain-clauses domain))
+      (changed-domain domain
+                      :scene (projection:scene-with-parameters (domain-scene domain) parameters))
+      domain))
+
+(defun speaks-of-p (observer items)
+  "Return true if OBSERVER observes one of ITEMS, a list of names, or asks a function about one."
+  (typecase observer
+    (placement (member (placement-body observer) items))
+    (attachment (member (attachment-item observer) items))
+    (computed (intersection (computed-arguments observer) items))))
+
+(defun domain-without-items (domain items)
+  "Return DOMAIN without ITEMS, a list of the names of items of its scene, and without the observers
+that speak of them; what the theory says of them is not observed."
+  (if items
+      (let ((scene (domain-scene domain)))
+        (changed-domain domain
+                        :scene (projection:scene-with-items
+                                scene
+                                (set-difference (projection:scene-item-names scene) items))
+                        :observers (remove-if (lambda (observer) (speaks-of-p observer items))
+                                              (domain-observers domain))))
       domain))
 
 (defun discrete-state (domain projection)

@@ -34,9 +34,10 @@ BOUNDARY."
 
 (defun boundary-text (boundary)
   "Return a text that tells between which values the discrepancy of BOUNDARY ends."
-  (format nil "~:{~a: ~,4f with the discrepancy, ~,4f without~:^; ~}"
+  (format nil "~:{~a is ~,vf with the discrepancy, ~,vf without~:^; ~}"
           (loop for (parameter failing passing) in (changed-values boundary)
-                collect (list (parameter-name parameter) failing passing))))
+                for digits = (max 4 (min 12 (decimals failing)) (min 12 (decimals passing)))
+                collect (list (parameter-name parameter) digits failing digits passing))))
 
 (defmethod print-object ((boundary boundary) stream)
   (print-unreadable-object (boundary stream :type t)
@@ -132,7 +133,7 @@ in parts of the range, if it is less than WITHIN; else NIL."
   "Return a blind sample of the best case of SHRINKER that passes, or NIL."
   (let* ((best (shrinker-best shrinker))
          (content (content-hash (symbolic:trace-text (discrepancy-trace best)))))
-    (loop for index below 50
+    (loop for index below 20
           for sample = (draw-sample (sample-parameters (discrepancy-sample best))
                                     (discrepancy-seed best) content index)
           when (eq (attempt shrinker :sample sample) :passing) return sample)))

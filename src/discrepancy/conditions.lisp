@@ -37,6 +37,16 @@
   (:documentation "Signaled when a replay file is missing, malformed, or does not fit its plan and
 domain."))
 
+(define-condition journal-error (discrepancy-error)
+  ((file :initarg :file :reader journal-error-file :documentation "The file.")
+   (reason :initarg :reason :reader journal-error-reason
+           :documentation "What is wrong, as a string without a full stop."))
+  (:report (lambda (condition stream)
+             (format stream "~a: ~a." (journal-error-file condition)
+                     (journal-error-reason condition))))
+  (:documentation "Signaled when the journal of a search is malformed, cannot be written, or is one
+of another search."))
+
 (define-condition invalid-argument (discrepancy-error)
   ((name :initarg :name :reader invalid-argument-name :documentation "The argument's name.")
    (value :initarg :value :reader invalid-argument-value :documentation "What was given.")

@@ -1,7 +1,7 @@
 ;;;; Candidate edits, each checked by judging again all runs so far.
 ;;;;
-;;;; CANDIDATE-EDITS is the entry point.  A run CONTRADICTS an edit if the theory agreed with it for
-;;;; longer before the edit.
+;;;; CANDIDATE-EDITS is the entry point.  A run CONTRADICTS an edit if the theory agreed with it
+;;;; further before the edit.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -24,25 +24,43 @@ by DOMAIN, or NIL.  CONTEXT is a Z3 context."
         (nth-value 1 (judge-steps domain solver state (refreshed-steps domain run) nil
                                   :consistent))))))
 
-(defun agreed-steps (domain run context)
-  "Return with how many steps of RUN the theory of DOMAIN agrees; one more than there are if it
-agrees with all."
+(defun agreement (domain run context)
+  "Return how far the theory of DOMAIN agrees with RUN: twice the number of the steps before the
+first divergence, one more if at that step the outcome agrees and the state does not."
   (let ((divergence (first-divergence domain run context)))
-    (if divergence
-        (divergence-step divergence)
-        (1+ (length (run-steps run))))))
+    (cond ((null divergence) (* 2 (1+ (length (run-steps run)))))
+          ((eq (divergence-kind divergence) :outcome) (* 2 (divergence-step divergence)))
+          (t (1+ (* 2 (divergence-step divergence)))))))
 
-(defun checked-edit (domain parts run runs agreed context)
+(defun event-possible-p (domain event context)
+  "Return true if the theory of DOMAIN allows EVENT in some state, an initial one or not."
+  (call-with-any-state
+   domain context
+   (lambda (solver state)
+     (multiple-value-bind (next conditions)
+         (ec:progress state (ec:event-number (symbolic:action-theory-ground domain) event))
+       (declare (ignore next))
+       (consistent-p solver (mapcar #'cdr conditions))))))
+
+(defun requirements-possible-p (domain edit transition context)
+  "Return true if the requirements of EDIT, for the action of TRANSITION, leave DOMAIN, which is
+edited, a state in which the action can succeed."
+  (or (null (edit-requirements edit))
+      (event-possible-p domain (transition-success transition) context)))
+
+(defun checked-edit (domain parts transition run runs agreed context)
   "Return the EDIT of PARTS (kind sentences replaced requirements) of DOMAIN, checked against RUNS,
-or NIL if it makes no theory.  AGREED are the numbers of the steps of RUNS with which the theory
-agrees now; RUN, one of RUNS, is that of the discrepancy."
+or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed.  AGREED
+tells how far the theory agrees with RUNS now; RUN, one of RUNS, is that of the discrepancy."
   (destructuring-bind (kind sentences replaced &optional requirements) parts
     (flet ((edit (&rest figures)
              (apply #'make-edit :kind kind :sentences sentences :replaced replaced
                                 :requirements requirements :runs (length runs) figures)))
       (let* ((edited (handler-case (edited-domain domain (edit))
                        (ec:theory-error () (return-from checked-edit nil))))
-             (now (loop for run in runs collect (agreed-steps edited run context)))
+             (now (if (requirements-possible-p edited (edit) transition context)
+                      (loop for run in runs collect (agreement edited run context))
+                      (return-from checked-edit nil)))
              (place (position run runs)))
         (edit :removes-p (> (nth place now) (nth place agreed))
               :contradicted (loop for before in agreed for after in now
@@ -57,8 +75,9 @@ nothing: what is determined comes before what is left open, what is short before
     (+ (ecase (edit-kind edit)
          ((:effect :requirement) 0)
          (:weaken 1000)
-         ((:release :may-fail) 2000))
-       (if (eq (edit-kind edit) :requirement)
+         ((:release :may-fail) 2000)
+         (:guess 3000))
+       (if (edit-requirements edit)
            (reduce #'+ (edit-requirements edit)
                    :key (lambda (requirement) (size (requirement-formula requirement))))
            (size (edit-sentences edit))))))
@@ -73,42 +92,48 @@ says more."
           do (cond ((< one two) (return t))
                    ((> one two) (return nil))))))
 
-(defun edit-parts-for (domain run runs divergence)
-  "Return the parts (kind sentences replaced requirements) of edits for DIVERGENCE of RUN, best
-first; RUNS are those to learn from."
-  (let* ((number (divergence-step divergence))
-         (transitions (loop for other in runs
-                            append (remove nil (run-transitions domain other))))
-         (transition (nth number (run-transitions domain run))))
-    (cond ((null transition) '())
-          ((eq (divergence-kind divergence) :outcome)
-           (outcome-edits domain transitions transition))
-          (t (state-edits domain transitions transition divergence)))))
+(defun edit-parts-for (domain transition runs divergence context)
+  "Return the parts (kind sentences replaced requirements) of edits for DIVERGENCE at TRANSITION,
+best first; RUNS are those to learn from."
+  (let ((transitions (loop for run in runs append (remove nil (run-transitions domain run)))))
+    (if (eq (divergence-kind divergence) :outcome)
+        (outcome-edits domain transitions transition context)
+        (state-edits domain transitions transition divergence))))
 
 (defun edits-for-run (domain run runs context)
   "Return the checked edits of DOMAIN for the first divergence of RUN, one of RUNS, best first."
-  (let ((divergence (first-divergence domain run context)))
-    (when divergence
-      (let ((agreed (loop for run in runs collect (agreed-steps domain run context)))
-            (candidates (remove-duplicates (edit-parts-for domain run runs divergence)
-                                           :test #'equalp :from-end t)))
-        (stable-sort (remove nil
-                             (loop for parts in candidates
-                                   repeat *edits-checked*
-                                   collect (checked-edit domain parts run runs agreed context)))
-                     #'better-edit-p)))))
+  (let* ((divergence (first-divergence domain run context))
+         (transition (and divergence
+                          (nth (divergence-step divergence) (run-transitions domain run)))))
+    (when transition
+      (let ((agreed (loop for run in runs collect (agreement domain run context))))
+        (stable-sort
+         (loop with checked = 0
+               for parts in (remove-duplicates (edit-parts-for domain transition runs divergence
+                                                               context)
+                                               :test #'equalp :from-end t)
+               for edit = (checked-edit domain parts transition run runs agreed context)
+               when edit
+                 collect edit and do (incf checked)
+               until (= checked *edits-checked*))
+         #'better-edit-p)))))
 
-(defun candidate-edits (discrepancy &key runs)
-  "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
-checked by judging again RUNS, a list of valid runs in the same domain, and the run of DISCREPANCY
-itself; without RUNS those of the same trace that the search has made."
-  (let* ((run (discrepancy-run discrepancy))
-         (runs (adjoin run (or runs (known-runs discrepancy)))))
-    (z3:with-context (context)
-      (edits-for-run (discrepancy-domain discrepancy) run runs context))))
+(defun plain-runs (entries)
+  "Return the runs in ENTRIES, a list of runs and of (run . judgement)."
+  (loop for entry in entries collect (if (consp entry) (car entry) entry)))
 
 (defun known-runs (discrepancy)
   "Return the runs of the same trace as DISCREPANCY that the search has made."
-  (if (slot-exists-p discrepancy 'runs)
-      (slot-value discrepancy 'runs)
-      '()))
+  (plain-runs (if (slot-exists-p discrepancy 'runs)
+                  (slot-value discrepancy 'runs)
+                  '())))
+
+(defun candidate-edits (discrepancy &key (runs (known-runs discrepancy)))
+  "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
+checked by judging again RUNS, a list of valid runs or of (RUN . JUDGEMENT) in the same domain, and
+the run of DISCREPANCY itself.  By default RUNS are those of the same trace that the search has
+made."
+  (let* ((run (discrepancy-run discrepancy))
+         (runs (adjoin run (plain-runs runs))))
+    (z3:with-context (context)
+      (edits-for-run (discrepancy-domain discrepancy) run runs context))))

@@ -96,14 +96,10 @@ are the masks of the rows in which a literal may hold."
              collect (list literal bad (truth-mask theory literal good-rows) place))
      #'< :key (lambda (entry) (logcount (second entry))))))
 
-(defun best-conditions (domain literals required bad-rows &optional good-rows)
-  "Return the shortest conditions out of LITERALS that hold in all rows of REQUIRED and in none of
-BAD-ROWS: a list of lists, at most *CONDITIONS-WANTED* of at most *CONDITION-LENGTH* literals.  Of
-those of the same length, the ones that hold in more of GOOD-ROWS come first, then those of plainer
-literals."
-  (let ((useful (useful-literals (symbolic:action-theory-theory domain) literals required bad-rows
-                                 good-rows))
-        (found '()))
+(defun conditions-of-length (length useful bad good)
+  "Return the conditions of LENGTH entries of USEFUL that exclude all rows of the mask BAD, those
+first that hold in more rows of the mask GOOD, then those of plainer literals."
+  (let ((found '()))
     (labels ((extend (chosen bad good places rest left)
                (cond ((zerop bad) (push (list* (logcount good) places (reverse chosen)) found))
                      ((plusp left)
@@ -112,16 +108,32 @@ literals."
                             unless (= new-bad bad)
                               do (extend (cons literal chosen) new-bad (logand good good-mask)
                                          (+ places place) more (1- left)))))))
-      (loop for length from 0 to *condition-length*
-            until found
-            do (extend '() (1- (ash 1 (length bad-rows))) (1- (ash 1 (length good-rows))) 0
-                       (if (< length *condition-length*)
-                           useful
-                           (subseq useful 0 (min *literals-tried* (length useful))))
-                       length)))
-    (let ((sorted (stable-sort (reverse found)
-                               (lambda (one other)
-                                 (or (> (first one) (first other))
-                                     (and (= (first one) (first other))
-                                          (< (second one) (second other))))))))
-      (mapcar #'cddr (subseq sorted 0 (min *conditions-wanted* (length sorted)))))))
+      (extend '() bad good 0
+              (if (< length *condition-length*)
+                  useful
+                  (subseq useful 0 (min *literals-tried* (length useful))))
+              length))
+    (mapcar #'cddr (stable-sort (reverse found)
+                                (lambda (one other)
+                                  (or (> (first one) (first other))
+                                      (and (= (first one) (first other))
+                                           (< (second one) (second other)))))))))
+
+(defun best-conditions (domain literals required bad-rows
+                        &key good-rows (acceptable (constantly t)))
+  "Return the shortest conditions out of LITERALS that hold in all rows of REQUIRED and in none of
+BAD-ROWS, and are ACCEPTABLE, by a function of a condition: a list of lists, at most
+*CONDITIONS-WANTED* of at most *CONDITION-LENGTH* literals.  Of those of the same length, the ones
+that hold in more of GOOD-ROWS come first."
+  (let ((useful (useful-literals (symbolic:action-theory-theory domain) literals required bad-rows
+                                 good-rows)))
+    (loop for length from 0 to *condition-length*
+          for wanted = *conditions-wanted*
+          for conditions = (loop for condition in (conditions-of-length
+                                                   length useful
+                                                   (1- (ash 1 (length bad-rows)))
+                                                   (1- (ash 1 (length good-rows))))
+                                 while (plusp wanted)
+                                 when (funcall acceptable condition)
+                                   collect condition and do (decf wanted))
+          when conditions return conditions)))

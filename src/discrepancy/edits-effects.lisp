@@ -75,8 +75,9 @@ TRANSITIONS, else there is one, without a condition."
                       (list (make-row (transition-before transition) (lifted-bindings lifting)))
                       (loop for (row nil after) in rows
                             when (eq after (not value)) collect row)
-                      (loop for (row before after) in rows
-                            when (and (eq after value) (eq before (not value))) collect row))))
+                      :good-rows (loop for (row before after) in rows
+                                       when (and (eq after value) (eq before (not value)))
+                                         collect row))))
     (values (loop for condition in (or conditions '(()))
                   collect (effect-sentence (effect-predicate value) lifted-event lifted-fluent
                                            condition))

@@ -30,18 +30,50 @@ of success."
                                        sort nil))))
     (values (cons (first event) (mapcar #'first lifting)) lifting)))
 
-(defun requirement-hypotheses (domain transitions transition)
+(defun call-with-any-state (domain context function)
+  "Call FUNCTION with a solver and a state of DOMAIN of which nothing is known but what the theory
+says of each state."
+  (z3:with-released-terms (context)
+    (z3:with-solver (solver context)
+      (let ((state (free-state (symbolic:action-theory-ground domain) context '())))
+        (loop for (axiom . proposition) in (ec:initial-conditions state)
+              unless (and (typep axiom 'ec:axiom)
+                          (eq :initially (first (ec:axiom-formula axiom))))
+                do (z3:solver-assert solver proposition))
+        (funcall function solver state)))))
+
+(defun condition-possible-p (domain condition bindings context)
+  "Return true if the theory of DOMAIN allows a state in which the literals CONDITION hold for
+BINDINGS."
+  (let ((formula (ec:parse-formula (conjunction-of (sublis bindings condition))
+                                   (symbolic:action-theory-theory domain))))
+    (call-with-any-state
+     domain context
+     (lambda (solver state)
+       (consistent-p solver (list (ec:holds (ec:ground-formula
+                                             (symbolic:action-theory-ground domain) formula)
+                                            (list state))))))))
+
+(defun requirement-hypotheses (domain transitions transition context)
   "Return (values conditions pattern): what the success of the action of TRANSITION requires, by all
 of TRANSITIONS, best first; each a list of literals over PATTERN."
   (let* ((theory (symbolic:action-theory-theory domain))
-         (ours (remove transition transitions :test-not #'same-action-p)))
-    (multiple-value-bind (pattern lifting) (general-pattern theory (transition-success transition))
-      (values (best-conditions domain
-                               (condition-literals domain
-                                                   (loop for (variable sort) in lifting
-                                                         collect (list variable sort)))
-                               (success-rows ours pattern t) (success-rows ours pattern nil))
-              pattern))))
+         (ours (remove transition transitions :test-not #'same-action-p))
+         (event (transition-success transition)))
+    (multiple-value-bind (pattern lifting) (general-pattern theory event)
+      (let ((successes (success-rows ours pattern t)))
+        (values (best-conditions
+                 domain
+                 (condition-literals domain (loop for (variable sort) in lifting
+                                                  collect (list variable sort)))
+                 successes (success-rows ours pattern nil)
+                 ;; What held before a success is possible.
+                 :acceptable (if successes
+                                 (constantly t)
+                                 (lambda (condition)
+                                   (condition-possible-p domain condition
+                                                         (matching pattern event) context))))
+                pattern)))))
 
 (defun failure-names (transitions transition)
   "Return the names of the failures of the action of TRANSITION that were seen in TRANSITIONS, as
@@ -52,22 +84,28 @@ the action binding has them; those that it lacks by their class."
            append (or (transition-outcomes other) (list (transition-failure other))))
    :from-end t))
 
-(defun precondition-sentences (theory pattern condition taken)
-  "Return named sentences that the event PATTERN happens only under CONDITION, a list of literals."
-  (let ((names '()))
+(defun precondition-sentences (theory pattern condition replaced)
+  "Return named sentences that the event PATTERN happens only under CONDITION, a list of literals,
+but for those that THEORY has.  They take the names of the axioms REPLACED, as far as these go."
+  (let* ((axioms (remove-if (lambda (axiom) (member (ec:axiom-name axiom) replaced))
+                            (ec:theory-axioms theory)))
+         (names '()))
     (loop for literal in condition
-          for name = (or (pop taken)
-                         (axiom-name-for theory (list (first pattern) :requires) names))
-          do (push name names)
-          collect (list name (list :implies (list :happens pattern :?time) (timed literal))))))
+          for sentence = (list :implies (list :happens pattern :?time) (timed literal))
+          unless (find sentence axioms :key #'ec:axiom-formula :test #'equal)
+            collect (let ((name (or (pop replaced)
+                                    (axiom-name-for theory (list (first pattern) :requires)
+                                                    names))))
+                      (push name names)
+                      (list name sentence)))))
 
-(defun requirement-parts (domain transition pattern condition failures mode)
-  "Return the parts (kind sentences replaced requirements) of the edit by which CONDITION, a list of
+(defun requirement-parts (domain kind transition pattern condition failures mode)
+  "Return the parts (KIND sentences replaced requirements) of the edit by which CONDITION, a list of
 literals over PATTERN, is required."
   (let* ((theory (symbolic:action-theory-theory domain))
          (replaced (and (eq mode :instead)
                         (mapcar #'ec:axiom-name (ec:event-axioms theory (first pattern))))))
-    (list :requirement
+    (list kind
           (precondition-sentences theory pattern condition replaced)
           replaced
           (list (make-requirement :class (transition-class transition)
@@ -88,20 +126,26 @@ whatever is the case."
               (list (change :instead) (change :may-fail)))
         (list :may-fail '() '() (list (change :may-fail))))))
 
-(defun outcome-edits (domain transitions transition)
+(defun outcome-edits (domain transitions transition context)
   "Return the parts (kind sentences replaced requirements) of edits for the outcome of TRANSITION,
 which the theory forbids, best first."
   (let ((failures (failure-names transitions transition))
-        (theory (symbolic:action-theory-theory domain)))
+        (theory (symbolic:action-theory-theory domain))
+        ;; What has never been seen to succeed requires nobody knows what.
+        (kind (if (some (lambda (other)
+                          (and (same-action-p other transition) (transition-succeeded-p other)))
+                        transitions)
+                  :requirement
+                  :guess)))
     (multiple-value-bind (conditions pattern)
-        (requirement-hypotheses domain transitions transition)
+        (requirement-hypotheses domain transitions transition context)
       (append
        (loop for condition in conditions
              append (loop for mode in (if (transition-succeeded-p transition)
                                           '(:instead)
                                           '(:also :instead))
-                          collect (requirement-parts domain transition pattern condition failures
-                                                     mode)))
+                          collect (requirement-parts domain kind transition pattern condition
+                                                     failures mode)))
        (list (may-fail-parts domain transition pattern failures))
        ;; A sentence of the theory may be what forbids a success.
        (when (transition-succeeded-p transition)

@@ -31,8 +31,8 @@ one of FAILURES.  MODE is as for SYMBOLIC:REVISED-BINDING."
                              (eq mode :instead) (ec:formula-text formula) failures))))))
 
 (defstruct (edit (:copier nil))
-  "A change of a theory.  KIND is one of :EFFECT, :RELEASE, :WEAKEN, :REQUIREMENT, :MAY-FAIL and
-:REGION, what it is about.  SENTENCES is a list of (name formula), REPLACED a list of names of
+  "A change of a theory.  KIND is one of :EFFECT, :RELEASE, :WEAKEN, :REQUIREMENT, :GUESS and
+:MAY-FAIL, what it is about.  SENTENCES is a list of (name formula), REPLACED a list of names of
 axioms, REQUIREMENTS a list of requirements.  CONTRADICTED of RUNS runs, the failing ones among
 them, are further from the edited theory than from the old one."
   (kind :effect :type keyword :read-only t)
@@ -45,8 +45,8 @@ them, are further from the edited theory than from the old one."
 
 (setf (documentation 'edit-kind 'function)
       "Return what an edit is about: :EFFECT (sentences of what actions change), :RELEASE (the
-change is left open), :WEAKEN (a sentence is taken out), :REQUIREMENT (a precondition), :MAY-FAIL
-(an action may fail at any time)."
+change is left open), :WEAKEN (a sentence is taken out), :REQUIREMENT (a precondition), :GUESS (a
+precondition of what has never succeeded in the runs), :MAY-FAIL (an action may fail at any time)."
       (documentation 'edit-sentences 'function)
       "Return the sentences that an edit adds to the theory: a list of (name formula)."
       (documentation 'edit-replaced 'function)
@@ -54,8 +54,8 @@ change is left open), :WEAKEN (a sentence is taken out), :REQUIREMENT (a precond
       (documentation 'edit-requirements 'function)
       "Return what an edit changes in the action bindings: a list of REQUIREMENTs."
       (documentation 'edit-removes-p 'function)
-      "Return true if an edit removes the discrepancy: theory and simulation no longer part at its
-step."
+      "Return true if an edit removes the discrepancy: theory and simulation no longer part where they
+did."
       (documentation 'edit-contradicted 'function)
       "Return the number of runs with which the theory agrees longer without the edit."
       (documentation 'edit-runs 'function)
@@ -120,4 +120,6 @@ registered.  Signals THEORY-ERROR."
                                            (edit-requirements edit))
                  :documentation (domain-documentation domain)
                  :scene (domain-scene domain) :regions (domain-regions domain)
-                 :observers (domain-observers domain) :file (domain-file domain)))
+                 :observers (domain-observers domain) :file (domain-file domain)
+                 :extended-files (domain-extended-files domain)
+                 :clauses (domain-clauses domain)))

@@ -208,6 +208,7 @@ a sentence that says why not."
 (defun run-monitored (monitor plan function)
   "Call FUNCTION, which does what PLAN (a symbol) does, under MONITOR and return how it ended.
 Random numbers are the same in every run, and the same as in symbolic execution."
+  (count-simulation)
   (let ((*random-state* (sb-ext:seed-random-state 0))
         (*gensym-counter* 0))
     (prog1 (catch monitor
@@ -229,9 +230,10 @@ Random numbers are the same in every run, and the same as in symbolic execution.
 
 (defmacro with-open-projection ((variable form) &body body)
   "Evaluate BODY with VARIABLE bound to the projection that FORM makes, and close that afterwards."
-  `(let ((,variable ,form))
-     (unwind-protect (progn ,@body)
-       (projection:close-projection ,variable))))
+  `(call-timed (lambda ()
+                 (let ((,variable ,form))
+                   (unwind-protect (progn ,@body)
+                     (projection:close-projection ,variable))))))
 
 (defun plan-function (plan arguments actions)
   "Return a function that calls PLAN (a symbol) with ARGUMENTS, or, if there are ACTIONS, performs

@@ -11,10 +11,12 @@
 
 (defstruct (influence (:copier nil))
   "That PARAMETERS, changed together and nothing else, decide: with the values FAILING, nearest to
-the boundary, the discrepancy shows, with AGREEING theory and simulation agree."
+the boundary, the discrepancy shows, with AGREEING theory and simulation agree.  HERE are the values
+in the discrepancy's own sample."
   (parameters '() :type list :read-only t)
   (failing '() :type list :read-only t)
-  (agreeing '() :type list :read-only t))
+  (agreeing '() :type list :read-only t)
+  (here '() :type list :read-only t))
 
 (setf (documentation 'influence-parameters 'function)
       "Return the list of the PARAMETERs that decide together, as a rule one."
@@ -72,10 +74,7 @@ of action and the same predicate, or failure, at which theory and simulation par
          (trace (discrepancy-trace discrepancy))
          (sample (make-sample (sample-index (discrepancy-sample discrepancy))
                               (sample-parameters (discrepancy-sample discrepancy)) values))
-         (run (execute-sample (discrepancy-domain discrepancy)
-                              (plan:plan-name (discrepancy-plan discrepancy)) sample
-                              :trace trace :execution (discrepancy-execution discrepancy)
-                              :arguments (symbolic:trace-arguments trace))))
+         (run (run-case discrepancy :sample sample)))
     (decf (prober-left prober))
     (if (eq (run-validity run) :valid)
         (let ((judgement (judge-run (discrepancy-domain discrepancy) run trace
@@ -174,30 +173,38 @@ to agree; all of NUMBERS are enough.  No part of it can be left out, as far as t
                (loop for number in numbers collect (aref values number)))))
       (make-influence :parameters (loop for number in numbers
                                         collect (nth number (prober-parameters prober)))
-                      :failing (values-at fails) :agreeing (values-at agrees)))))
+                      :here (values-at 0) :failing (values-at fails)
+                      :agreeing (values-at agrees)))))
 
 ;;; One coordinate at a time
 
-(defun end-values (prober number)
-  "Return the failing values with coordinate NUMBER at either end of its range, the farther one
-first."
+(defun moved-values (prober number place)
+  "Return the failing values with coordinate NUMBER at PLACE of its range: in the :MIDDLE, at the
+:FAR end or at the :NEAR one."
   (let* ((parameter (nth number (prober-parameters prober)))
-         (width (- (parameter-max parameter) (parameter-min parameter)))
-         (here (aref (failing-values prober) number))
-         (ends (list (parameter-min parameter)
-                     ;; The upper bound belongs to the next region.
-                     (- (parameter-max parameter) (* 1d-6 width)))))
-    (loop for end in (sort ends #'> :key (lambda (end) (abs (- end here))))
-          for values = (copy-seq (failing-values prober))
-          do (setf (aref values number) end)
-          collect values)))
+         (min (parameter-min parameter))
+         (max (parameter-max parameter))
+         ;; The upper bound belongs to the next region.
+         (below-max (- max (* 1d-6 (- max min))))
+         (middle (/ (+ min max) 2))
+         (values (copy-seq (failing-values prober))))
+    (setf (aref values number)
+          (ecase place
+            (:middle middle)
+            (:far (if (< (aref values number) middle) below-max min))
+            (:near (if (< (aref values number) middle) min below-max))))
+    values))
 
-(defun single-influence (prober number)
-  "Return the influence of coordinate NUMBER, moved alone to an end of its range, or NIL if that
-changes nothing."
-  (loop for values in (end-values prober number)
-        when (eq (probe prober values) :agrees)
-          return (boundary-influence prober (list number) values)))
+(defun single-influences (prober numbers)
+  "Return the influences of the coordinates among NUMBERS that decide when they are moved alone, to
+the middle or an end of their range."
+  (let ((influences '()))
+    (dolist (place '(:middle :far :near))
+      (dolist (number numbers)
+        (let ((values (moved-values prober number place)))
+          (when (and (not (assoc number influences)) (eq (probe prober values) :agrees))
+            (push (cons number (boundary-influence prober (list number) values)) influences)))))
+    (mapcar #'cdr (sort influences #'< :key #'car))))
 
 (defun separation (runs number)
   "Return how well a threshold for coordinate NUMBER tells the runs of RUNS, a list of (run .
@@ -233,21 +240,18 @@ context."
          (numbers (stable-sort (free-numbers prober) #'>
                                :key (lambda (number) (separation runs number))))
          (others (nearest-agreeing-values prober runs))
-         (influences '()))
+         (decisive '()))
     (setf (gethash (failing-values prober) (prober-known prober)) :fails)
-    (let ((decisive
-            (and others
-                 (smallest-change prober
-                                  (remove-if (lambda (number)
-                                               (= (aref others number)
-                                                  (aref (failing-values prober) number)))
-                                             (reverse numbers))
-                                  others))))
-      (when decisive
-        (push (boundary-influence prober decisive others) influences))
-      (dolist (number numbers)
-        (unless (and decisive (equal decisive (list number)))
-          (let ((influence (single-influence prober number)))
-            (when influence (push influence influences))))))
-    (values (nreverse influences) (nreverse (prober-runs prober))
-            (- max-runs (prober-left prober)))))
+    (when others
+      (setf decisive (smallest-change
+                      prober
+                      (remove-if (lambda (number)
+                                   (= (aref others number) (aref (failing-values prober) number)))
+                                 (reverse numbers))
+                      others)))
+    (let ((influences (append
+                       (and decisive (list (boundary-influence prober decisive others)))
+                       (single-influences prober (if (rest decisive)
+                                                     numbers
+                                                     (set-difference numbers decisive))))))
+      (values influences (nreverse (prober-runs prober)) (- max-runs (prober-left prober))))))

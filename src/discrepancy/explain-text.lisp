@@ -94,22 +94,32 @@ observed-in-the-run-3)\"."
 
 ;;; Coordinates and edits
 
+(defun quantity-text (parameter value)
+  "Return the text of VALUE of PARAMETER with its unit."
+  (subseq (value-text parameter value) (+ 3 (length (parameter-name parameter)))))
+
 (defun influence-text (influence)
   "Return what INFLUENCE says, as a sentence."
-  (flet ((values-text (values)
-           (format nil "~{~a~^ and ~}"
-                   (mapcar #'value-text (influence-parameters influence) values))))
-    (format nil "~:[~;Together: ~]~a fails, ~a agrees."
-            (rest (influence-parameters influence))
-            (values-text (influence-failing influence))
-            (values-text (influence-agreeing influence)))))
+  (let ((parameters (influence-parameters influence)))
+    (flet ((all-text (values)
+             (format nil "~{~a~^ and ~}" (mapcar #'value-text parameters values))))
+      (if (rest parameters)
+          (format nil "Only together: ~a fails still, ~a agrees."
+                  (all-text (influence-failing influence)) (all-text (influence-agreeing influence)))
+          (destructuring-bind (here failing agreeing)
+              (loop for values in (list (influence-here influence) (influence-failing influence)
+                                        (influence-agreeing influence))
+                    collect (quantity-text (first parameters) (first values)))
+            (format nil "~a, ~a here: ~a ~:[fails still~;fails~], ~a agrees."
+                    (parameter-name (first parameters)) here failing (string= here failing)
+                    agreeing))))))
 
 (defun runs-text (explanation)
-  (format nil "~d of ~d run~:p of this trace agree~[s~:;~]; ~d further run~:p ~:*~[were~;was~:;were~] ~
+  (format nil "Of the ~d run~:p of this trace ~d agree~p; ~d further run~:p ~:*~[were~;was~:;were~] ~
                made for this."
-          (explanation-agreeing explanation)
           (+ (explanation-agreeing explanation) (explanation-differing explanation))
-          (if (= 1 (explanation-agreeing explanation)) 0 1)
+          (explanation-agreeing explanation)
+          (if (= 1 (explanation-agreeing explanation)) 2 1)
           (explanation-probes explanation)))
 
 (defun explanation-text (explanation)
@@ -117,7 +127,7 @@ observed-in-the-run-3)\"."
   (with-output-to-string (stream)
     (flet ((lines (indent texts)
              (dolist (text texts)
-               (format stream "~v@{ ~:*~}~*~a~%" indent text))))
+               (format stream "~a~a~%" (make-string indent :initial-element #\Space) text))))
       (format stream "  why (timepoint n is after step n)~%")
       (when (eq (explanation-kind explanation) :outcome)
         (format stream "    the theory forbids that step ~d, ~a, ends with ~a~%"
@@ -138,7 +148,7 @@ observed-in-the-run-3)\"."
         (format stream "  candidate edits~%")
         (loop for edit in (explanation-edits explanation)
               for number from 1
-              do (format stream "    ~d. ~a~%       ~@(~a~).~%" number (edit-text edit)
+              do (format stream "    ~d. ~a~%       ~a~%" number (edit-text edit)
                          (edit-verdict-text edit)))))))
 
 ;;; JSON

@@ -95,24 +95,24 @@ to the step before LAST; with EVENT, a list, that happens in step LAST, and the 
 about that time.  What the theory says of the beginning is left out unless MOMENT is the beginning."
   (let ((theory (symbolic:action-theory-theory domain))
         (first (moment-time moment)))
-    (ec:theory-variant
+    (ec:revised-theory
      theory
-     :axioms (if (zerop first)
-                 (ec:theory-axioms theory)
-                 (remove-if #'ec:about-the-beginning-p (ec:theory-axioms theory)))
-     :added (append
-             (loop for (atom . truth) in (moment-facts moment)
-                   for number from 0
-                   collect (list (numbered-name *fact-prefix* number)
-                                 (list :initially (literal-form atom truth))))
-             (loop for number from first below last
-                   for event = (seen-event (nth number (run-steps run)))
-                   when event
-                     collect (list (numbered-name *event-prefix* number)
-                                   (list :happens event number)))
-             (and event
-                  (list (list (numbered-name *event-prefix* last) (list :happens event last))))
-             (and condition (list (list *outcome-name* condition))))
+     :without (and (plusp first)
+                   (mapcar #'ec:axiom-name
+                           (remove-if-not #'ec:about-the-beginning-p (ec:theory-axioms theory))))
+     :with (append
+            (loop for (atom . truth) in (moment-facts moment)
+                  for number from 0
+                  collect (list (numbered-name *fact-prefix* number)
+                                (list :initially (literal-form atom truth))))
+            (loop for number from first below last
+                  for event = (seen-event (nth number (run-steps run)))
+                  when event
+                    collect (list (numbered-name *event-prefix* number)
+                                  (list :happens event number)))
+            (and event
+                 (list (list (numbered-name *event-prefix* last) (list :happens event last))))
+            (and condition (list (list *outcome-name* condition))))
      :complete-events t)))
 
 (defun call-with-pieces (function moments last)

@@ -11,7 +11,7 @@
 (defstruct (explanation (:copier nil))
   "Why theory and simulation part in a discrepancy at STEP, counted from 0.  CLAIMS are what the
 theory says after the step, or would have said; ENDING is its claim that the step cannot have ended
-as it did, with the CONDITION under which it could, a text; both are NIL where the states differ or
+as it did, with the CONDITION under which it could, a clause; both are NIL where the states differ or
 the action binding has no such outcome, of which the names are OUTCOMES."
   (step 0 :type (integer 0) :read-only t)
   (action "" :type string :read-only t)
@@ -87,11 +87,14 @@ RUN has followed it so far, else that of success."
           (and success (symbolic:outcome-event success))))))
 
 (defun condition-text (domain outcome)
-  "Return the condition of OUTCOME, or NIL if it has none or cannot be told."
-  (let ((formula (symbolic:outcome-condition outcome)))
-    (and (consp formula)
-         (let ((form (ec:formula-form (symbolic:action-theory-ground domain) formula nil)))
-           (and form (ec:formula-text form))))))
+  "Return the condition of OUTCOME as a clause, or NIL if it has none or cannot be told."
+  (let* ((formula (symbolic:outcome-condition outcome))
+         (form (and (consp formula)
+                    (ec:formula-form (symbolic:action-theory-ground domain) formula nil))))
+    (cond ((null form) nil)
+          ((eq (first form) :not)
+           (format nil "~a is false" (ec:formula-text (second form))))
+          (t (format nil "~a is true" (ec:formula-text form))))))
 
 (defun theory-side (discrepancy)
   "Return a property list for MAKE-EXPLANATION: what the theory says in DISCREPANCY, and why."
@@ -136,7 +139,7 @@ RUN has followed it so far, else that of success."
                                                   (discrepancy-judgement discrepancy))
                                      :context context)))))
 
-(defun explain-discrepancy (discrepancy &key (runs (discrepancy-runs discrepancy)) (max-runs 30)
+(defun explain-discrepancy (discrepancy &key (runs (known-runs discrepancy)) (max-runs 30)
                                           max-seconds)
   "Return the EXPLANATION of DISCREPANCY.  RUNS are the valid runs of its trace so far, or pairs (run
 . judgement).  At most MAX-RUNS further runs, begun within MAX-SECONDS (NIL: no limit), find out

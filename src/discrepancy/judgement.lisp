@@ -79,12 +79,11 @@ the Z3 CONTEXT."
         collect (if truth proposition (z3:negation proposition))))
 
 (defun consistent-p (solver propositions)
-  "Return true if PROPOSITIONS can be true together with what SOLVER holds."
+  "Return true if PROPOSITIONS can be true together with what SOLVER holds, which is consistent."
   (let ((proposition (z3:conjunction propositions)))
-    (case proposition
-      ((t) (eq (z3:check solver) :sat))
-      ((nil) nil)
-      (t (eq (z3:check solver (list proposition)) :sat)))))
+    (if (typep proposition 'boolean)
+        proposition
+        (eq (z3:check solver (list proposition)) :sat))))
 
 ;;; A CANDIDATE is (state . condition): what may be the case after the steps so far, since a seen
 ;;; outcome can be one of several that the action binding lists.
@@ -110,6 +109,14 @@ the Z3 CONTEXT."
                            (add-candidate next next-condition next-candidates)))))))
     next-candidates))
 
+(defun settled-candidates (solver candidates)
+  "Return CANDIDATES; the condition of a single one is handed to SOLVER, which has learnt from it by
+the next question."
+  (destructuring-bind (&optional candidate &rest more) candidates
+    (cond ((or (null candidate) more (eq (cdr candidate) t)) candidates)
+          (t (z3:solver-assert solver (cdr candidate))
+             (list (cons (car candidate) t))))))
+
 ;;; Differences
 
 (defun allows-p (solver candidates observed)
@@ -129,7 +136,7 @@ opposite of each."
               (setf needed others)))))))
 
 (defun trace-state-after (trace steps number)
-  "Return the state of TRACE after step NUMBER if STEPS are those of TRACE up to it."
+  "Return the state of TRACE after step NUMBER if STEPS, those of a run, are as in TRACE up to it."
   (and (< number (length (symbolic:trace-steps trace)))
        (every #'same-step-p (subseq steps 0 (1+ number)) (symbolic:trace-steps trace))
        (nth (1+ number) (symbolic:trace-states trace))))
@@ -159,13 +166,15 @@ outcomes that it allows, or CANDIDATES if there are none."
       candidates))
 
 (defun map-steps (function domain solver state steps trace comparison)
-  "Call FUNCTION for each of STEPS, from STATE on, until it returns true or the theory forbids an
-outcome: with the step's number, the step, what is wrong (:OUTCOME, :STATE or NIL), the list of
-(atom theory-value simulation-value) in which they differ, and the candidates after it."
-  (let ((candidates (list (cons state t))))
+  "Call FUNCTION for each of STEPS, those of a run, from STATE on, until it returns true or the theory
+forbids an outcome: with the step's number, the step, what is wrong (:OUTCOME, :STATE or NIL), the
+list of (atom theory-value simulation-value) in which they differ, and the candidates after it."
+  (let ((candidates (and (eq (z3:check solver) :sat) (list (cons state t)))))
     (loop for step in steps
           for number from 0
-          for next = (next-candidates domain solver candidates (run-step-candidates step))
+          for next = (settled-candidates solver
+                                         (next-candidates domain solver candidates
+                                                          (run-step-candidates step)))
           do (if (null next)
                  (let ((others (alternatives domain solver candidates step)))
                    (funcall function number step :outcome
@@ -179,10 +188,10 @@ outcome: with the step's number, the step, what is wrong (:OUTCOME, :STATE or NI
                      (return))
                    (setf candidates next))))))
 
-(defun judge-steps (domain solver state steps trace comparison)
-  "Return whether the theory of DOMAIN allows the outcomes of STEPS, and the state after the last of
-them; by the COMPARISON :EXACT also whether that after the last step of TRACE is as in TRACE.  The
-second value is the first divergence or NIL."
+(defun judge-steps (domain solver state steps &optional trace (comparison :consistent))
+  "Return whether the theory of DOMAIN allows the outcomes of STEPS, those of a run, and the state
+after the last of them; by the COMPARISON :EXACT also whether that after the last step of TRACE is
+as in TRACE.  The second value is the first divergence or NIL."
   (let ((divergence nil) (final t) (last-of-trace t))
     (map-steps (lambda (number step kind fluents candidates)
                  (declare (ignore step candidates))
@@ -201,6 +210,10 @@ second value is the first divergence or NIL."
   (and (>= (length (run-steps run)) (length (symbolic:trace-steps trace)))
        (every #'same-step-p (run-steps run) (symbolic:trace-steps trace))))
 
+(defun judging-logic (domain)
+  "Return the logic of Z3's engine that answers many small questions fastest."
+  (if (ec:ground-numeric-p (symbolic:action-theory-ground domain)) nil "QF_UF"))
+
 (defun call-with-judge (function domain run context)
   "Call FUNCTION with a solver that holds what the theory of DOMAIN says of the beginning of RUN,
 and with the state there.  CONTEXT is a Z3 context or NIL for a new one."
@@ -208,7 +221,7 @@ and with the state there.  CONTEXT is a Z3 context or NIL for a new one."
       (z3:with-context (context)
         (call-with-judge function domain run context))
       (z3:with-released-terms (context)
-        (z3:with-solver (solver context)
+        (z3:with-solver (solver context :logic (judging-logic domain))
           (let ((state (free-state (symbolic:action-theory-ground domain) context
                                    (run-initial-state run))))
             (loop for (nil . proposition) in (ec:initial-conditions state)

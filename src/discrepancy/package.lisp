@@ -46,11 +46,24 @@ search, replay.")
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-discrepancy
    #:result-discrepancies #:result-traces #:result-simulations #:result-iterations #:result-seed
    #:result-exploration #:result-text #:result-symbolic-seconds #:result-simulation-seconds
+   #:result-plan #:result-domain #:result-constraint #:result-parameters #:result-rule-name
+   #:result-rule #:result-confidence #:result-sampler #:result-acceptance-rate #:result-kinds
+   #:result-phases #:result-seconds #:result-solver-seconds #:result-reused #:result-stopped
+   #:search-phase #:phase-name #:phase-simulations #:phase-simulation-seconds #:phase-seconds
+   #:result-statement #:trace-result-statement #:trace-result-bound
+   #:request-stop #:stop-search
+   #:skip-sample #:retry-sample #:abort-trace
    #:trace-result #:trace-result-status #:trace-result-trace #:trace-result-verdict
    #:trace-result-samples #:trace-result-rejected #:trace-result-reason
+   #:trace-result-blind #:trace-result-targeted #:trace-result-drawn #:trace-result-accepted
+   #:trace-result-left-trace #:trace-result-void #:trace-result-runs #:trace-result-warnings
+   #:trace-result-acceptance-rate #:trace-result-confidence #:trace-result-discrepancies
    #:discrepancy #:discrepancy-plan #:discrepancy-trace #:discrepancy-sample #:discrepancy-run
    #:discrepancy-judgement #:discrepancy-seed #:discrepancy-file #:discrepancy-text
-   #:discrepancy-parameters #:discrepancy-confirmed-p
+   #:discrepancy-parameters #:discrepancy-confirmed-p #:discrepancy-domain
+   #:discrepancy-constraint #:discrepancy-execution #:discrepancy-compare
+   #:discrepancy-comparison #:discrepancy-origin #:discrepancy-occurrences #:discrepancy-runs
+   #:discrepancy-kind #:kind-text #:discrepancy-explanation #:discrepancy-shrunk
    ;; plans and domains by name
    #:ensure-plan #:ensure-domain #:locate-file #:use-data-directories
    ;; replay
@@ -66,8 +79,20 @@ search, replay.")
    #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
    #:edit-requirements #:edit-removes-p #:edit-contradicted #:edit-runs #:edited-theory
    #:edited-domain
+   ;; refinement
+   #:refine-theory #:refinement #:refinement-domain #:refinement-initial-domain
+   #:refinement-steps #:refinement-status #:refinement-reason #:refinement-simulations
+   #:refinement-runs #:refinement-results #:refinement-text #:refinement-step
+   #:refinement-step-discrepancy #:refinement-step-edit #:refinement-step-alternatives
+   ;; results as JSON, and what pictures of them need
+   #:result-json #:sample-poses #:sample-joints #:sample-parameters #:write-file-whole #:run-sample
    ;; conditions and restarts
    #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
    #:discrepancy-found #:discrepancy-found-discrepancy
    #:continue-search #:next-trace #:accept
-   #:invalid-argument))
+   #:journal-error #:journal-error-file #:journal-error-reason
+   #:invalid-argument
+   ;; simulation without a trace
+   #:simulate-blindly #:allowed-initial-states #:blind-result #:blind-result-simulations
+   #:blind-result-rejected #:blind-result-kinds #:blind-result-discrepancy
+   #:blind-result-seconds))

@@ -154,10 +154,26 @@ theory must allow them."
     (unless (= (length values) (length parameters))
       (replay-problem "the sample has ~d values where the trace has ~d parameters"
                       (length values) (length parameters)))
-    (make-sample (value-of object "index" '(integer 0)) parameters
+    (make-sample (let ((index (value-of object "index" '(or (integer 0) (eql :null)))))
+                   (and (integerp index) index))
+                 parameters
                  (coerce (loop for parameter in parameters
                                collect (parameter-value values parameter))
                          '(simple-array double-float (*))))))
+
+(defun read-left-out (object scene)
+  "Return the names of the items of SCENE that OBJECT leaves out."
+  (loop for text across (value-of object "left-out" 'simple-vector)
+        collect (or (find text (projection:scene-item-names scene)
+                          :key #'ec:name-text :test #'equal)
+                    (replay-problem "~s: the scene has no item ~a" "left-out" text))))
+
+(defun read-actions (object)
+  "Return the RECORDED-ACTIONs that OBJECT tells, with no places in the plan."
+  (loop for description across (value-of object "actions" 'simple-vector)
+        collect (handler-case (action-from-json description)
+                  (unreadable-action (condition)
+                    (replay-problem "~s: ~a" "actions" (unreadable-action-reason condition))))))
 
 (defun read-constraint (text domain)
   (let ((constraint (find text (ec:theory-state-constraints (symbolic:action-theory-theory domain))
@@ -187,11 +203,17 @@ theory must allow them."
   (unless (every #'stringp (value-of object key 'simple-vector))
     (replay-problem "~s is no array of strings" key)))
 
+(defun newer-part (object)
+  "Return the JSON object that has what files of the first format lack: OBJECT, or, if it is of that
+format, one that says what was always so then."
+  (if (equal (json:get-key object "format" nil) *replay-format*)
+      object
+      (json:object "comparison" "consistent" "actions" (vector) "left-out" (vector))))
+
 (defun check-replay (object)
   "Check the parts of OBJECT that can be checked without plan and domain, which are code and are
 loaded only for a file that has this form."
-  (unless (and (listp object) (equal (json:get-key object "format" nil) *replay-format*))
-    (replay-problem "it is no replay file: ~s should be ~s" "format" *replay-format*))
+  (check-format object)
   (dolist (key '("plan" "domain" "parameters" "files" "trace" "sample" "run"))
     (value-of object key 'list))
   (value-of object "seed" '(unsigned-byte 64))
@@ -203,7 +225,16 @@ loaded only for a file that has this form."
     (check-strings run "final")
     (value-of (value-of run "divergence" 'cons) "step" '(integer 1)))
   (check-strings (value-of object "trace" 'list) "initial")
-  (value-of (value-of object "sample" 'list) "index" '(unsigned-byte 32)))
+  (keyword-of (newer-part object) "comparison" '(:consistent :exact))
+  (check-strings (newer-part object) "left-out")
+  (value-of (newer-part object) "actions" 'simple-vector)
+  (value-of (value-of object "sample" 'list) "index" '(or (unsigned-byte 32) (eql :null))))
+
+(defun check-format (object)
+  (unless (and (listp object)
+               (member (json:get-key object "format" nil) (cons *replay-format* *older-formats*)
+                       :test #'equal))
+    (replay-problem "it is no replay file: ~s should be ~s" "format" *replay-format*)))
 
 (defun parse-replay (object folder)
   "Return what OBJECT, the content of a replay file in FOLDER, tells: a property list."
@@ -211,12 +242,15 @@ loaded only for a file that has this form."
   (let* ((plan (read-plan (value-of object "plan" 'list) folder))
          (domain (read-domain (value-of object "domain" 'list) folder))
          (parameters (read-parameters (value-of object "parameters" 'list) (domain-scene domain)))
-         (domain (domain-with-parameters domain parameters))
+         (left-out (read-left-out (newer-part object) (domain-scene domain)))
+         (domain (domain-without-items (domain-with-parameters domain parameters) left-out))
          (trace (read-trace (value-of object "trace" 'list) plan domain)))
     (list :plan plan :domain domain :parameters parameters :trace trace
+          :actions (read-actions (newer-part object)) :left-out left-out
           :constraint (read-constraint (value-of object "constraint" 'string) domain)
           :execution (keyword-of object "execution" '(:trace :plan))
           :compare (keyword-of object "compare" '(:final :every-step))
+          :comparison (keyword-of (newer-part object) "comparison" '(:consistent :exact))
           :seed (value-of object "seed" '(unsigned-byte 64))
           :sample (read-sample (value-of object "sample" 'list)
                                (handler-case (initial-parameters domain trace)

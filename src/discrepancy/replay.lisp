@@ -1,14 +1,17 @@
 ;;;; Replay: a discrepancy as a file, and the run that the file repeats.
 ;;;;
 ;;;; SAVE-DISCREPANCY writes a JSON file with all that the run depends on: plan, domain, parameters,
-;;;; trace, the sample's numbers, and a hash of the bits of the final state.  REPLAY runs it again,
-;;;; in any process, and tells "same bits" from "same verdict, other bits" and "other verdict".
+;;;; trace, the sample's numbers, and a hash of the bits of the final state; for one that was shrunk
+;;;; also the actions that are performed in the place of the plan, and the items that are left out.
+;;;; REPLAY runs it again, in any process, and tells "same bits" from "same verdict, other bits" and "other verdict".
 ;;;; Reading a file evaluates nothing, and a file that is not right in every part is refused.
 
 (in-package #:discrepancy-finder.discrepancy)
 
-(defparameter *replay-format* "discrepancy-finder discrepancy 1"
+(defparameter *replay-format* "discrepancy-finder discrepancy 2"
   "The value of \"format\" in replay files.")
+(defparameter *older-formats* '("discrepancy-finder discrepancy 1")
+  "The other formats that are read: 1 has no shrunk discrepancies.")
 
 (defun file-hash (file)
   "Return the hash of the text in FILE, or NIL if it cannot be read."
@@ -57,7 +60,7 @@
              (loop for (parameter name value) in values
                    when (eq tolerance (tolerance-p parameter))
                      collect (cons name value))))
-      (append (json:object "index" (sample-index sample) "values" (entries nil))
+      (append (json:object "index" (json-or-null (sample-index sample)) "values" (entries nil))
               (and (entries t) (json:object "tolerances" (entries t)))))))
 
 (defun divergence-json (divergence)
@@ -87,8 +90,13 @@
                         collect (cons (ec:name-text name) (decimal-double value)))
      "execution" (string-downcase (discrepancy-execution discrepancy))
      "compare" (string-downcase (discrepancy-compare discrepancy))
+     "comparison" (string-downcase (discrepancy-comparison discrepancy))
      "seed" (discrepancy-seed discrepancy)
      "trace" (trace-json (discrepancy-trace discrepancy))
+     "actions" (map 'vector
+                    (lambda (action) (description-json (recorded-action-description action)))
+                    (discrepancy-actions discrepancy))
+     "left-out" (map 'vector #'ec:name-text (discrepancy-left-out discrepancy))
      "sample" (sample-json (discrepancy-sample discrepancy))
      "run" (json:object
             "hash" (hash-text (run-hash run))
@@ -170,14 +178,14 @@ the initial state is not one of the trace any more."
   "Run the discrepancy stored in FILE again and return a REPLAY-RESULT.  Reading FILE evaluates
 nothing; but the plan and the domain that it names, which are code, are loaded from the files that
 it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
-  (destructuring-bind (&key plan domain parameters trace constraint execution compare (seed 0)
-                         sample recorded changed-files)
+  (destructuring-bind (&key plan domain parameters trace constraint execution compare comparison
+                         (seed 0) actions left-out sample recorded changed-files)
       (read-replay-file file)
     (let* ((run (execute-sample domain (plan:plan-name plan) sample
                                 :trace trace :execution execution
-                                :arguments (symbolic:trace-arguments trace)))
+                                :arguments (symbolic:trace-arguments trace) :actions actions))
            (judgement (if (eq (run-validity run) :valid)
-                          (judge-run domain run trace :compare compare)
+                          (judge-run domain run trace :compare compare :comparison comparison)
                           (make-judgement :verdict :left-trace)))
            (same-bits (= (run-hash run) (first recorded)))
            (same-verdict (eq (judgement-verdict judgement) (second recorded))))
@@ -190,7 +198,7 @@ it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
                          (make-discrepancy
                           :plan plan :domain domain :parameters parameters :execution execution
                           :compare compare :seed seed :trace trace :sample sample :run run
-                          :constraint constraint
+                          :constraint constraint :actions actions :left-out left-out
                           :judgement judgement :confirmed-p same-bits
                           :file (source:native-name file)))))))
 

@@ -31,7 +31,7 @@
           (state-text (ec:state-fluents (symbolic:trace-final-state trace)))))
 
 (defun describe-sample (domain sample stream)
-  (format stream "  initial state of the simulation (sample ~d)~%" (sample-index sample))
+  (format stream "  initial state of the simulation~@[ (sample ~d)~]~%" (sample-index sample))
   (let ((poses (sample-poses (domain-scene domain) sample)))
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
@@ -62,11 +62,20 @@
           do (format stream "    ~a: theory ~:[false~;true~], simulation ~:[false~;true~]~%"
                      (ec:atom-text atom) theory simulation))))
 
+(defun describe-shrinking (discrepancy stream)
+  "Tell what of DISCREPANCY is not as plan and scene have it, if it was shrunk."
+  (when (discrepancy-actions discrepancy)
+    (format stream "  these actions are performed without the plan~%"))
+  (when (discrepancy-left-out discrepancy)
+    (format stream "  left out of the world: ~{~a~^, ~}~%"
+            (mapcar #'ec:name-text (discrepancy-left-out discrepancy)))))
+
 (defun discrepancy-text (discrepancy &key (command "./discrepancy-finder"))
   "Return a text of several lines that tells DISCREPANCY: the trace, the initial state, where theory
 and simulation part, both final states, and how COMMAND replays it."
   (with-output-to-string (stream)
     (describe-trace (discrepancy-trace discrepancy) stream)
+    (describe-shrinking discrepancy stream)
     (describe-sample (discrepancy-domain discrepancy) (discrepancy-sample discrepancy) stream)
     (describe-divergence discrepancy stream)
     (format stream "  final state~%    theory:     ~a~%    simulation: ~a~@[ (stopped after step ~
@@ -83,13 +92,26 @@ and simulation part, both final states, and how COMMAND replays it."
     (when (discrepancy-file discrepancy)
       (format stream "  replay it with: ~a replay ~a~%" command (discrepancy-file discrepancy)))))
 
-(defun trace-result-text (result number)
-  (format nil "  trace ~d: ~(~a~), ~a~%    ~d simulation~:p that agree~:*~[~;s~:;~]~
-               ~@[, ~d rejected~]~@[, ~d left the trace~]~%"
-          number (trace-result-status result) (trace-result-reason result)
-          (trace-result-samples result)
-          (let ((rejected (trace-result-rejected result))) (and (plusp rejected) rejected))
-          (let ((left (trace-result-left-trace result))) (and (plusp left) left))))
+(defun acceptance-text (result)
+  "Return a text of the part of the samples of RESULT that were valid, or NIL if all were."
+  (let ((rate (result-acceptance-rate result)))
+    (and rate (< rate 1)
+         (format nil "~a % of the samples drawn were valid"
+                 (percent-text (/ (floor (* 1000 rate)) 1000d0))))))
+
+(defun trace-result-text (result number confidence)
+  "Return a text of some lines that tells RESULT, of trace NUMBER of a search with CONFIDENCE."
+  (with-output-to-string (stream)
+    (format stream "  trace ~d: ~(~a~), ~a~%" number (trace-result-status result)
+            (trace-result-reason result))
+    (format stream "    ~d simulation~:p that agree~:*~[~;s~:;~]~@[, ~d rejected~]~@[, ~d left the ~
+                    trace~]~%"
+            (trace-result-samples result)
+            (let ((rejected (trace-result-rejected result))) (and (plusp rejected) rejected))
+            (let ((left (trace-result-left-trace result))) (and (plusp left) left)))
+    (unless (eq (trace-result-status result) :discrepancy)
+      (format stream "    sound: ~a~%" (trace-result-statement result confidence)))
+    (format stream "~{    warning: ~a~%~}" (trace-result-warnings result))))
 
 (defun drawn-text (result)
   "Return a text that tells which tolerances the simulations of RESULT have drawn, or NIL."
@@ -103,7 +125,10 @@ and simulation part, both final states, and how COMMAND replays it."
 
 (defun headline (result)
   (ecase (result-status result)
-    (:discrepancy "DISCREPANCY: theory and simulation disagree.")
+    (:discrepancy (let ((kinds (length (result-kinds result))))
+                    (format nil "DISCREPANCY: theory and simulation disagree~[~;~:;, in ~:*~d ~
+                                 ways~]."
+                            kinds)))
     (:certified (format nil "NO DISCREPANCY: the rule ~(~a~) is satisfied at ~a % confidence for ~
                              every trace~@[, with ~a~]."
                         (result-rule-name result)
@@ -111,9 +136,35 @@ and simulation part, both final states, and how COMMAND replays it."
                         (drawn-text result)))
     (:undecided (format nil "UNDECIDED: ~a." (result-reason result)))))
 
-(defun percent-text (fraction)
-  "Return FRACTION in percent with as few digits as it has."
-  (string-right-trim "." (string-right-trim "0" (format nil "~,6f" (* 100 fraction)))))
+(defun time-text (result)
+  "Return a text that tells where the time of RESULT went."
+  (let* ((symbolic (result-symbolic-seconds result))
+         (simulation (result-simulation-seconds result)))
+    (format nil "~,3f s in symbolic execution, ~,3f s in simulation, ~,3f s in all (~,3f s of it in ~
+                 Z3)"
+            symbolic simulation (result-seconds result) (result-solver-seconds result))))
+
+(defun extra-simulations-text (result)
+  "Return a text of the simulations that shrink and explain, or NIL."
+  (let ((texts (loop for (name . words) in '((:shrink . "to shrink") (:explain . "to explain"))
+                     for phase = (find name (result-phases result) :key #'phase-name)
+                     when (plusp (phase-simulations phase))
+                       collect (format nil "~d ~a" (phase-simulations phase) words))))
+    (and texts (format nil "~{~a~^, ~}" texts))))
+
+(declaim (ftype function explanation-text shrinking-text))
+
+(defun describe-discrepancy (discrepancy command stream)
+  "Print DISCREPANCY with what was found out of it."
+  (format stream "  kind: ~a~[~;~:;, found ~:*~d times~]~%" (kind-text discrepancy)
+          (discrepancy-occurrences discrepancy))
+  (write-string (discrepancy-text discrepancy :command command) stream)
+  (when (discrepancy-explanation discrepancy)
+    (write-string (explanation-text (discrepancy-explanation discrepancy)) stream)
+    (fresh-line stream))
+  (when (discrepancy-shrunk discrepancy)
+    (write-string (shrinking-text (discrepancy-shrunk discrepancy) :command command) stream)
+    (fresh-line stream)))
 
 (defun result-text (result &key (command "./discrepancy-finder"))
   "Return the report of RESULT, a text of several lines."
@@ -121,6 +172,8 @@ and simulation part, both final states, and how COMMAND replays it."
         (discrepancies (result-discrepancies result)))
     (with-output-to-string (stream)
       (format stream "~a~%" (headline result))
+      (when (rest (result-traces result))
+        (format stream "~@[  sound: ~a~%~]" (result-statement result)))
       (format stream "  plan ~a~%" (source-text (plan:plan-name (result-plan result))
                                                 (plan:plan-position (result-plan result))))
       (format stream "  domain ~a~@[, with ~a~]~%"
@@ -130,17 +183,20 @@ and simulation part, both final states, and how COMMAND replays it."
       (format stream "  state constraint ~a, rule ~(~a~), confidence ~a, seed ~d~%"
               (ec:name-text (result-constraint result)) (result-rule-name result)
               (number-text (result-confidence result)) (result-seed result))
-      (format stream "  ~d iteration~:p, ~d simulation~:p~%" (result-iterations result)
-              (result-simulations result))
-      (format stream "  ~,3f s in symbolic execution, ~,3f s in simulation~%"
-              (result-symbolic-seconds result) (result-simulation-seconds result))
-      (unless discrepancies
-        (loop for trace in (result-traces result)
-              for number from 1
-              do (write-string (trace-result-text trace number) stream)
-                 (describe-trace (trace-result-trace trace) stream)))
+      (format stream "  ~d iteration~:p, ~d simulation~:p~@[, and ~a~]~@[; ~a~]~%"
+              (result-iterations result) (result-simulations result)
+              (extra-simulations-text result) (acceptance-text result))
+      (format stream "  ~a~%" (time-text result))
+      (loop for (nil file text) in (result-reused result)
+            do (format stream "  stored ~a: ~a~%" file text))
+      (loop for trace in (result-traces result)
+            for number from 1
+            unless (eq (trace-result-status trace) :discrepancy)
+              do (write-string (trace-result-text trace number (result-confidence result)) stream)
+                 (unless discrepancies
+                   (describe-trace (trace-result-trace trace) stream)))
       (dolist (discrepancy discrepancies)
-        (write-string (discrepancy-text discrepancy :command command) stream)))))
+        (describe-discrepancy discrepancy command stream)))))
 
 (defun run-text (run)
   "Return the report of RUN, a text of several lines."

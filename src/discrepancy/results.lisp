@@ -1,9 +1,13 @@
-;;;; Results: discrepancies, what sampling a trace came to, and what a whole search came to.
+;;;; Results: discrepancies, and what sampling a trace came to.
+;;;;
+;;;; What a whole search came to is in search-results.lisp.
 
 (in-package #:discrepancy-finder.discrepancy)
 
 (defstruct (discrepancy (:copier nil))
-  "A sample from which the simulation does what the theory does not allow."
+  "A sample from which the simulation does what the theory does not allow.  ORIGIN is :BLIND,
+:TARGETED or :REUSED; OCCURRENCES counts the finds of the same kind, this one included; RUNS is a
+list of (run . judgement), what the search had seen of the trace until then."
   (plan nil :read-only t)
   (domain nil :read-only t)
   (constraint nil :read-only t)
@@ -15,9 +19,14 @@
   (sample nil :read-only t)
   (actions '() :type list :read-only t)
   (left-out '() :type list :read-only t)
-  (run nil :read-only t)
+  (run nil)
   (judgement nil :read-only t)
-  (confirmed-p nil :type boolean :read-only t)
+  (confirmed-p nil :type boolean)
+  (origin :blind :type (member :blind :targeted :reused) :read-only t)
+  (occurrences 1 :type (integer 1))
+  (runs '() :type list)
+  (explanation nil)
+  (shrunk nil)
   (file nil :type (or null string)))
 
 (setf (documentation 'discrepancy-plan 'function)
@@ -42,6 +51,26 @@ not have."
       "Return the judgement on that run."
       (documentation 'discrepancy-confirmed-p 'function)
       "Return true if a second run had the same bits."
+      (documentation 'discrepancy-constraint 'function)
+      "Return the name of the state constraint."
+      (documentation 'discrepancy-domain 'function)
+      "Return the domain."
+      (documentation 'discrepancy-execution 'function)
+      "Return :TRACE if runs stop where they leave the trace, or :PLAN."
+      (documentation 'discrepancy-compare 'function)
+      "Return :FINAL if final states are compared, or :EVERY-STEP."
+      (documentation 'discrepancy-origin 'function)
+      "Return how a discrepancy was found: by a :BLIND sample, a :TARGETED one, or :REUSED from a
+store."
+      (documentation 'discrepancy-occurrences 'function)
+      "Return how often a search has found a discrepancy of this kind."
+      (documentation 'discrepancy-runs 'function)
+      "Return what the search had seen of the trace: a list of (RUN . JUDGEMENT) of valid runs in
+the order in which they were made, the discrepancy's own last; at most 1000."
+      (documentation 'discrepancy-explanation 'function)
+      "Return the explanation of a discrepancy, or NIL."
+      (documentation 'discrepancy-shrunk 'function)
+      "Return what shrinking a discrepancy came to, or NIL."
       (documentation 'discrepancy-file 'function)
       "Return the name of the file in which a discrepancy is stored, or NIL.")
 
@@ -60,16 +89,94 @@ not have."
     (format stream "~(~a~): ~a" (plan:plan-name (discrepancy-plan discrepancy))
             (discrepancy-summary discrepancy))))
 
+(defun discrepancy-comparison (discrepancy)
+  "Return :CONSISTENT if the theory was asked whether it allows a state, or :EXACT."
+  (judgement-comparison (discrepancy-judgement discrepancy)))
+
+;;; Kinds
+
+(defun designator-type-of (designator)
+  "Return the type of DESIGNATOR as a keyword; also if it is the text of one."
+  (if (stringp designator)
+      (let* ((start (search "(type " designator))
+             (end (and start (position #\) designator :start start))))
+        (if end
+            (ec:name-keyword (intern (string-upcase (subseq designator (+ start 6) end))
+                                     '#:keyword))
+            :step))
+      (ec:name-keyword (or (plan:desig-prop-value designator :type) :step))))
+
+(defun intended-event (discrepancy number designator)
+  "Return the event that the trace of DISCREPANCY has for DESIGNATOR at step NUMBER, or NIL; where
+there is no trace, that of the action binding."
+  (let ((trace (discrepancy-trace discrepancy)))
+    (if trace
+        (let ((expected (nth number (symbolic:trace-steps trace))))
+          (and expected
+               (string= (princ-to-string designator)
+                        (princ-to-string (symbolic:step-designator expected)))
+               (symbolic:step-event expected)))
+        (some #'symbolic:outcome-event
+              (symbolic:action-outcomes (discrepancy-domain discrepancy) designator)))))
+
+(defun step-action (discrepancy number step)
+  "Return the name of the event that the theory has for STEP, the step NUMBER of the run of
+DISCREPANCY; of one that means no event the type of the designator."
+  (let ((event (or (intended-event discrepancy number (run-step-designator step))
+                   (some #'symbolic:outcome-event (run-step-candidates step)))))
+    (if event
+        (first event)
+        (designator-type-of (run-step-designator step)))))
+
+(defun discrepancy-kind (discrepancy)
+  "Return the kind of DISCREPANCY: a list of two keywords, the event of the first divergent step (or
+its designator's type) and the predicate of the first divergent fluent, or, where the theory forbids
+the outcome, the class of the failure (:SUCCESS for none)."
+  (let* ((divergence (judgement-divergence (discrepancy-judgement discrepancy)))
+         (number (divergence-step divergence))
+         (step (nth number (run-steps (discrepancy-run discrepancy)))))
+    (list (step-action discrepancy number step)
+          (ecase (divergence-kind divergence)
+            (:outcome (ec:name-keyword (run-step-outcome step)))
+            (:state (or (first (first (first (divergence-fluents divergence)))) :state))))))
+
+(defun kind-text (discrepancy)
+  "Return the kind of DISCREPANCY in words, such as \"holding differs after navigate\"."
+  (destructuring-bind (action aspect) (discrepancy-kind discrepancy)
+    (if (eq :outcome (divergence-kind (judgement-divergence (discrepancy-judgement discrepancy))))
+        (format nil "~a ends with ~a" (ec:name-text action) (ec:name-text aspect))
+        (format nil "~a differs after ~a" (ec:name-text aspect) (ec:name-text action)))))
+
+;;; Traces
+
 (defstruct (trace-result (:copier nil))
-  "What sampling a trace came to: STATUS is :CERTIFIED, :DISCREPANCY, :UNDECIDED or :SKIPPED."
+  "What sampling a trace came to: STATUS is :CERTIFIED, :DISCREPANCY, :UNDECIDED or :SKIPPED.  BLIND
+and TARGETED count the samples that the theory allows, DRAWN the blind samples that were drawn, and
+REJECTED all samples that were not valid; VOID says why there can be no certificate, or is NIL."
   (trace nil :read-only t)
   (status :undecided :type (member :certified :discrepancy :undecided :skipped) :read-only t)
   (reason "" :type string :read-only t)
   (verdict nil :read-only t)
-  (samples 0 :type (integer 0) :read-only t)
+  (confidence 0.95d0 :type double-float :read-only t)
+  (blind 0 :type (integer 0) :read-only t)
+  (targeted 0 :type (integer 0) :read-only t)
+  (drawn 0 :type (integer 0) :read-only t)
+  (accepted 0 :type (integer 0) :read-only t)
   (rejected 0 :type (integer 0) :read-only t)
   (left-trace 0 :type (integer 0) :read-only t)
+  (void nil :type (or null string) :read-only t)
+  (runs '() :type list :read-only t)
+  (warnings '() :type list :read-only t)
   (discrepancies '() :type list :read-only t))
+
+(defun trace-result-samples (result)
+  "Return the number of samples that the theory allows, blind and targeted ones."
+  (+ (trace-result-blind result) (trace-result-targeted result)))
+
+(defun trace-result-acceptance-rate (result)
+  "Return the part of the samples drawn blindly that were valid, or NIL if none was drawn."
+  (and (plusp (trace-result-drawn result))
+       (/ (trace-result-accepted result) (float (trace-result-drawn result) 1d0))))
 
 (setf (documentation 'trace-result-trace 'function)
       "Return the execution trace."
@@ -79,83 +186,32 @@ not have."
       "Return why a trace has its status, as a clause."
       (documentation 'trace-result-verdict 'function)
       "Return the last verdict of the confidence rule, or NIL."
-      (documentation 'trace-result-samples 'function)
-      "Return the number of samples that the theory allows."
+      (documentation 'trace-result-confidence 'function)
+      "Return the confidence that a guarantee for this trace needs, so that those for all traces of
+the search hold jointly."
+      (documentation 'trace-result-blind 'function)
+      "Return the number of blind samples that the theory allows; only they count for a guarantee."
+      (documentation 'trace-result-targeted 'function)
+      "Return the number of other samples that the theory allows."
+      (documentation 'trace-result-drawn 'function)
+      "Return the number of samples that were drawn blindly, valid or not."
+      (documentation 'trace-result-accepted 'function)
+      "Return the number of samples that were drawn blindly and valid."
       (documentation 'trace-result-rejected 'function)
-      "Return the number of samples that were not valid.")
+      "Return the number of samples that were not valid, targeted ones included."
+      (documentation 'trace-result-left-trace 'function)
+      "Return the number of samples that took another outcome than the trace's, which the theory
+allows."
+      (documentation 'trace-result-void 'function)
+      "Return why the samples of a trace can support no certificate, as a clause, or NIL."
+      (documentation 'trace-result-runs 'function)
+      "Return the list of (RUN . JUDGEMENT) of the valid runs in their order; at most 1000."
+      (documentation 'trace-result-warnings 'function)
+      "Return the list of sentences that warn of what the verdict does not show."
+      (documentation 'trace-result-discrepancies 'function)
+      "Return the list of the DISCREPANCYs that were found in a trace.")
 
 (defmethod print-object ((result trace-result) stream)
   (print-unreadable-object (result stream :type t)
     (format stream "~(~a~) after ~d sample~:p" (trace-result-status result)
             (trace-result-samples result))))
-
-;;; Searches
-
-(defclass search-result ()
-  ((plan :initarg :plan :reader result-plan)
-   (domain :initarg :domain :reader result-domain)
-   (constraint :initarg :constraint :reader result-constraint)
-   (parameters :initarg :parameters :reader result-parameters)
-   (rule-name :initarg :rule-name :reader result-rule-name)
-   (confidence :initarg :confidence :reader result-confidence)
-   (seed :initarg :seed :reader result-seed
-         :documentation "The seed of the blind samples.")
-   (exploration :initarg :exploration :reader result-exploration
-                :documentation "The EXPLORATION of the plan.")
-   (traces :initarg :traces :reader result-traces
-           :documentation "The list of the TRACE-RESULTs, in order.")
-   (simulations :initarg :simulations :reader result-simulations
-                :documentation "The number of projections.")
-   (simulation-seconds :initarg :simulation-seconds :reader result-simulation-seconds
-                       :documentation "The seconds spent in them."))
-  (:documentation "What a search has found."))
-
-(defun result-discrepancies (result)
-  "Return the list of the DISCREPANCYs that RESULT holds."
-  (loop for trace in (result-traces result) append (trace-result-discrepancies trace)))
-
-(defun result-discrepancy (result)
-  "Return the first DISCREPANCY of RESULT, or NIL."
-  (first (result-discrepancies result)))
-
-(defun result-iterations (result)
-  "Return the number of traces that were simulated."
-  (length (result-traces result)))
-
-(defun result-symbolic-seconds (result)
-  "Return the seconds spent in symbolic execution."
-  (values (symbolic:exploration-seconds (result-exploration result))))
-
-(defun result-status (result)
-  "Return :DISCREPANCY, :CERTIFIED (all traces are, and exploration was complete) or :UNDECIDED."
-  (cond ((result-discrepancies result) :discrepancy)
-        ((and (result-traces result)
-              (every (lambda (trace) (eq (trace-result-status trace) :certified))
-                     (result-traces result))
-              (symbolic:exploration-complete-p (result-exploration result)))
-         :certified)
-        (t :undecided)))
-
-(defun result-reason (result)
-  "Return a sentence without a full stop that says why RESULT has its status."
-  (let ((undecided (find :certified (result-traces result) :key #'trace-result-status
-                                                           :test-not #'eq)))
-    (cond ((result-discrepancies result) "theory and simulation disagree")
-          ((not (symbolic:exploration-consistent-p (result-exploration result)))
-           "the theory allows no initial state")
-          (undecided (trace-result-reason undecided))
-          ((symbolic:exploration-complete-p (result-exploration result))
-           (if (result-traces result)
-               "every trace is certified and exploration was complete"
-               "the state constraint comes true on no path, so nothing was simulated"))
-          (t (format nil "exploration was incomplete~@[: ~{~a~^, ~}~]"
-                     (symbolic:exploration-gaps (result-exploration result)))))))
-
-(defmethod print-object ((result search-result) stream)
-  (print-unreadable-object (result stream :type t)
-    (format stream "~(~a: ~a~), ~d iteration~:p, ~d simulation~:p, seed ~d"
-            (plan:plan-name (result-plan result)) (result-status result)
-            (result-iterations result) (result-simulations result) (result-seed result))))
-
-(defmethod describe-object ((result search-result) stream)
-  (format stream "~a~%~a" result (result-text result)))

@@ -53,13 +53,14 @@ a tolerance."
             (parameter-max parameter))))
 
 (defstruct (sample (:constructor make-sample (index parameters values)) (:copier nil))
-  "A continuous initial state: VALUES (a vector of double floats) of PARAMETERS (a list)."
-  (index 0 :type (integer 0) :read-only t)
+  "A continuous initial state: VALUES (a vector of double floats) of PARAMETERS (a list).  INDEX is
+NIL if it was not drawn."
+  (index 0 :type (or null (integer 0)) :read-only t)
   (parameters '() :type list :read-only t)
   (values #() :type vector :read-only t))
 
 (setf (documentation 'sample-index 'function)
-      "Return the number of a sample, counted from 0."
+      "Return the number of a sample, counted from 0, or NIL if it was not drawn."
       (documentation 'sample-values 'function)
       "Return the vector of the values of a sample (m, rad), in the order of its parameters.")
 
@@ -89,7 +90,7 @@ a tolerance."
 
 (defmethod print-object ((sample sample) stream)
   (print-unreadable-object (sample stream :type t)
-    (format stream "~d: ~a" (sample-index sample) (sample-text sample))))
+    (format stream "~@[~d: ~]~a" (sample-index sample) (sample-text sample))))
 
 (defun placements (domain)
   (remove-if-not #'placement-p (domain-observers domain)))
@@ -193,13 +194,43 @@ body that it is nowhere or in two places, or that an item is held."
                      collect (make-parameter (placement-body placement) axis min max nil
                                              (and (not (region-box-p region)) region)))))
 
-(defun inside-final-regions-p (parameters intervals)
+(defun resting-bodies (domain trace)
+  "Return the list of the bodies that, by the theory, are in one and the same region all along
+TRACE, by each of their placements."
+  (let ((states (symbolic:trace-states trace)))
+    (flet ((resting-p (body)
+             (loop for (placement . region) in (final-regions domain trace)
+                   for atom = (placement-atom placement region)
+                   always (or (not (eq (placement-body placement) body))
+                              (every (lambda (state) (ec:fluent-value state atom)) states)))))
+      (remove-if-not #'resting-p
+                     (remove-duplicates (mapcar (lambda (entry) (placement-body (car entry)))
+                                                (final-regions domain trace)))))))
+
+(defparameter *settling-tolerance* 1d-3
+  "How far (m, rad) a body that rests may move when the world settles.")
+
+(defun final-bounds (parameters resting)
+  "Return the vector of the bounds (MIN . MAX) of the final PARAMETERS.  A body that is RESTING may
+be drawn anywhere in its region, and settles: its bounds are as much wider."
+  (map 'vector (lambda (parameter)
+                 (let ((margin (if (member (parameter-body parameter) resting)
+                                   *settling-tolerance*
+                                   0d0)))
+                   (cons (- (parameter-min parameter) margin)
+                         (+ (parameter-max parameter) margin))))
+       parameters))
+
+(defun inside-final-regions-p (parameters intervals &optional resting)
   "Return true if it is certain that the INTERVALS (LOWER . UPPER) of PARAMETERS lie in the regions
-of their bodies that are no boxes; also if a rule predicts nothing, and INTERVALS is empty."
+of their bodies that are no boxes, those of RESTING bodies, from which samples are drawn, apart;
+also if a rule predicts nothing, and INTERVALS is empty."
   (or (null intervals)
       (loop for (body . region) in (remove-duplicates
                                     (loop for parameter in parameters
-                                          when (parameter-region parameter)
+                                          when (and (parameter-region parameter)
+                                                    (not (member (parameter-body parameter)
+                                                                 resting)))
                                             collect (cons (parameter-body parameter)
                                                           (parameter-region parameter)))
                                     :test #'equal)

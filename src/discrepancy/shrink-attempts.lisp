@@ -24,22 +24,6 @@
           :documentation "What came of the cases that were run."))
   (:documentation "The shrinking of a discrepancy in progress."))
 
-(defun event-or-type (step)
-  "Return the name of the event of STEP, a RUN-STEP, or else the type of its designator."
-  (let ((event (some #'symbolic:outcome-event (run-step-candidates step))))
-    (if event
-        (first event)
-        (plan:desig-prop-value (run-step-designator step) :type))))
-
-(defun kind-of-divergence (run divergence)
-  "Return the kind of a discrepancy of RUN: a list of the action and the fluent, or the failure,
-with which theory and simulation part at DIVERGENCE."
-  (let ((step (nth (divergence-step divergence) (run-steps run))))
-    (list (event-or-type step)
-          (if (eq (divergence-kind divergence) :outcome)
-              (run-step-outcome step)
-              (first (first (first (divergence-fluents divergence))))))))
-
 (defun exhausted-p (shrinker)
   "Return true if SHRINKER may not run anything more, and note why."
   (or (shrinker-exhausted shrinker)
@@ -59,7 +43,7 @@ with which theory and simulation part at DIVERGENCE."
                     :constraint (discrepancy-constraint best)
                     :parameters (discrepancy-parameters best)
                     :execution (discrepancy-execution best) :compare (discrepancy-compare best)
-                    :seed (discrepancy-seed best)
+                    :seed (discrepancy-seed best) :origin (discrepancy-origin best)
                     :trace trace :sample sample :actions actions :left-out left-out
                     :run run :judgement judgement :confirmed-p confirmed-p))
 
@@ -75,22 +59,50 @@ are as for EXECUTE-SAMPLE."
                   :actions (discrepancy-actions discrepancy)
                   :fidelity fidelity :observer observer))
 
+(defun performed-trace (trace run)
+  "Return TRACE with the designators as RUN has performed them: what was detected is where it was
+this time."
+  (let ((performed (mapcar #'run-step-designator (run-steps run))))
+    (symbolic:make-execution-trace
+     :plan (symbolic:trace-plan trace) :arguments (symbolic:trace-arguments trace)
+     :states (symbolic:trace-states trace)
+     :steps (loop for step in (symbolic:trace-steps trace)
+                  collect (symbolic:make-trace-step
+                           :designator (if performed
+                                           (princ-to-string (pop performed))
+                                           (symbolic:step-designator step))
+                           :event (symbolic:step-event step)
+                           :outcome (symbolic:step-outcome step)
+                           :position (symbolic:step-position step))))))
+
+(defun same-kind (shrinker case run judgement)
+  "Return CASE with its RUN and JUDGEMENT if it is a discrepancy of the kind of SHRINKER, else NIL."
+  (let* ((trace (discrepancy-trace case))
+         (found (variation case :run run :judgement judgement
+                                :trace (if (discrepancy-actions case)
+                                           (performed-trace trace run)
+                                           trace))))
+    (and (equal (discrepancy-kind found) (shrinker-kind shrinker))
+         found)))
+
 (defun judged-case (shrinker case)
   "Run CASE, a discrepancy without a run, and return what came of it and the discrepancy or NIL."
   (let ((run (progn (incf (shrinker-runs shrinker)) (run-case case))))
     (if (or (not (eq (run-validity run) :valid)) (eq (run-ending run) :too-many-steps))
         (values :other nil)
-        (let* ((judgement (judge-run (discrepancy-domain case) run (discrepancy-trace case)
-                                     :context (shrinker-context shrinker)
-                                     :compare (discrepancy-compare case)))
-               (divergence (judgement-divergence judgement)))
+        (let ((judgement (judge-run (discrepancy-domain case) run (discrepancy-trace case)
+                                    :context (shrinker-context shrinker)
+                                    :compare (discrepancy-compare case)
+                                    :comparison (discrepancy-comparison
+                                                 (shrinker-original shrinker)))))
           (ecase (judgement-verdict judgement)
             (:left-trace (values :other nil))
             (:consistent (values :passing nil))
             (:discrepancy
-             (if (equal (kind-of-divergence run divergence) (shrinker-kind shrinker))
-                 (values :same (variation case :run run :judgement judgement))
-                 (values :other nil))))))))
+             (let ((found (same-kind shrinker case run judgement)))
+               (if found
+                   (values :same found)
+                   (values :other nil)))))))))
 
 (defun attempt (shrinker &rest changes)
   "Run what differs from the best case of SHRINKER by CHANGES, arguments of VARIATION, and return

@@ -46,7 +46,7 @@
 
 (defun sample-with (sample values)
   "Return SAMPLE with VALUES, a list."
-  (make-sample (sample-index sample) (sample-parameters sample)
+  (make-sample nil (sample-parameters sample)
                (coerce values '(simple-array double-float (*)))))
 
 (defun sample-with-value (sample number value)

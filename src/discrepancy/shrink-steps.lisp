@@ -105,30 +105,6 @@ true if it does."
 
 ;;; Items
 
-(defun domain-without-items (domain items)
-  "Return DOMAIN without ITEMS, a list of the names of items of its scene, and the observers that
-speak of them."
-  (if (null items)
-      domain
-      (let ((scene (domain-scene domain)))
-        (flet ((speaks-of-them-p (observer)
-                 (typecase observer
-                   (placement (member (placement-body observer) items))
-                   (attachment (member (attachment-item observer) items))
-                   (computed (intersection (computed-arguments observer) items)))))
-          (make-instance 'domain
-                         :name (symbolic:action-theory-name domain)
-                         :theory (symbolic:action-theory-theory domain)
-                         :actions (symbolic:action-theory-actions domain)
-                         :documentation (domain-documentation domain)
-                         :scene (projection:scene-with-items
-                                 scene (set-difference (projection:scene-item-names scene) items))
-                         :regions (domain-regions domain)
-                         :observers (remove-if #'speaks-of-them-p (domain-observers domain))
-                         :file (domain-file domain)
-                         :extended-files (domain-extended-files domain)
-                         :clauses (domain-clauses domain))))))
-
 (defun mentions-p (value name)
   "Return true if NAME, a keyword, occurs in VALUE, a description or a value in one."
   (typecase value

@@ -44,6 +44,9 @@ EXHAUSTED is NIL, or says when it was stopped by its bounds."
         (let ((again (run-case best)))
           (incf (shrinker-runs shrinker))
           (variation best :run (discrepancy-run best) :judgement (discrepancy-judgement best)
+                          :actions (and (discrepancy-actions best)
+                                        (mapcar #'recorded-step-action
+                                                (run-steps (discrepancy-run best))))
                           :confirmed-p (= (run-hash again) (run-hash (discrepancy-run best))))))))
 
 (defun shrink-discrepancy (discrepancy &key (max-runs 300) (max-seconds 60))
@@ -55,13 +58,11 @@ after MAX-SECONDS.  Signals INVALID-ARGUMENT."
                   "a number of seconds")
   (let ((start (foreign:monotonic-seconds)))
     (z3:with-context (context)
-      (let* ((judgement (discrepancy-judgement discrepancy))
-             (shrinker (make-instance
-                        'shrinker
-                        :original discrepancy :best discrepancy :context context
-                        :kind (kind-of-divergence (discrepancy-run discrepancy)
-                                                  (judgement-divergence judgement))
-                        :max-runs max-runs :deadline (+ start max-seconds))))
+      (let ((shrinker (make-instance
+                       'shrinker
+                       :original discrepancy :best discrepancy :context context
+                       :kind (discrepancy-kind discrepancy)
+                       :max-runs max-runs :deadline (+ start max-seconds))))
         (unless (discrepancy-actions discrepancy)
           (shrink-actions shrinker))
         (shrink-items shrinker)
@@ -91,7 +92,6 @@ after MAX-SECONDS.  Signals INVALID-ARGUMENT."
 the nearest sample that passes.  COMMAND is as for DISCREPANCY-TEXT."
   (let* ((original (shrinking-original shrinking))
          (discrepancy (shrinking-discrepancy shrinking))
-         (left-out (discrepancy-left-out discrepancy))
          (drawn (count-if-not #'fixed-p (sample-parameters (discrepancy-sample discrepancy))))
          (ordinary (- drawn (length (mattering-numbers discrepancy)))))
     (with-output-to-string (stream)
@@ -99,9 +99,6 @@ the nearest sample that passes.  COMMAND is as for DISCREPANCY-TEXT."
               (shrinking-exhausted shrinking))
       (format stream "  ~d of ~d step~:p are left~%"
               (step-count discrepancy) (step-count original))
-      (when left-out
-        (format stream "  ~{~a~#[~; and ~:;, ~]~} ~:[are~;is~] left out of the world~%"
-                (mapcar #'ec:name-text left-out) (null (rest left-out))))
       (format stream "  ~d of ~d drawn values ~:[are~;is~] ordinary~@[; what matters: ~a~]~%"
               ordinary drawn (= ordinary 1)
               (and (< ordinary drawn) (mattering-text discrepancy)))

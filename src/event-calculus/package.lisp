@@ -16,8 +16,8 @@ them and why, and what they say of a state after known events.")
    #:sort-elements #:element-sort #:sort-name #:sort-parents #:sort-range #:sort-constants
    #:sort-terms
    #:axiom #:axiom-name #:axiom-label #:axiom-formula #:axiom-position
-   ;; variants of theories, and what a state alone decides
-   #:theory-variant #:about-the-beginning-p #:self-contained-p #:formula-form
+   ;; pieces of a run: what a state alone decides
+   #:about-the-beginning-p #:self-contained-p #:formula-form
    ;; revised theories
    #:revised-theory #:effect-axioms #:event-axioms
    ;; names and atoms

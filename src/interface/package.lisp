@@ -53,11 +53,15 @@
                 #:discrepancy #:discrepancy-text #:discrepancy-trace #:discrepancy-sample
                 #:discrepancy-run #:discrepancy-judgement
                 #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
+                #:result-json #:explain-discrepancy #:explanation-text
                 #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
+                #:shrink-discrepancy #:shrinking #:shrinking-text #:shrinking-discrepancy
+                #:shrinking-boundary
                 #:discrepancy-found #:discrepancy-found-discrepancy
                 #:continue-search #:next-trace #:accept
                 #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
                 #:invalid-argument)
+  (:import-from #:discrepancy-finder.report #:write-report)
   (:import-from #:discrepancy-finder.statistics
                 #:invalid-confidence #:invalid-delta #:unknown-confidence-rule)
   (:import-from #:discrepancy-finder.projection
@@ -107,6 +111,9 @@
    #:discrepancy #:discrepancy-text #:discrepancy-trace #:discrepancy-sample #:discrepancy-run
    #:discrepancy-judgement
    #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
+   #:result-json #:write-report
+   #:explain-discrepancy #:explanation-text
+   #:shrink-discrepancy #:shrinking #:shrinking-text #:shrinking-discrepancy #:shrinking-boundary
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found

@@ -46,6 +46,7 @@
    #:view-world #:viewing-pose #:picture-error #:picture-error-reason
    #:watch-projection #:recorder #:make-frame-recorder #:frame-observer #:finish-frames
    #:abandon-frames
+   #:outlines-from-above #:record-trail #:base-trail
    ;; manipulation
    ;; process modules
    #:execute-designator #:executes-p #:drive-base #:move-arm #:move-head

@@ -19,7 +19,8 @@ been enough samples.  Numbers are double floats; results are functions of the ar
    #:parameter-region #:make-parameter-region #:parameter-region-initial-bounds
    #:parameter-region-final-bounds
    #:verdict #:verdict-status #:verdict-reason #:verdict-count #:verdict-intervals
-   #:verdict-coefficients #:verdict-sigma #:verdict-z
+   #:verdict-coefficients #:verdict-sigma #:verdict-z #:verdict-freedom
+   #:worst-corners
    ;; confidence rules
    #:confidence-rule #:confidence-rule-confidence #:confidence-verdict
    #:make-confidence-rule #:register-confidence-rule #:rule-for-trace

@@ -96,7 +96,7 @@ parameter."
                                                        (* z (/ spread (sqrt (float count 1d0))))))
                          (parameter-region-final-bounds region) count
                          :coefficients (mapcar #'fit-coefficients fits)
-                         :sigma spreads :z z)
+                         :sigma spreads :z z :freedom (- count (fit-columns (first fits))))
         (not-yet count "~d samples for ~d columns leave no spread" count
                  (fit-columns (first fits))))))
 

@@ -124,7 +124,7 @@ the way from their middle to a corner."
                          (bounded-intervals bands bounds factors))
                      (parameter-region-final-bounds region) count
                      :coefficients (mapcar #'band-solution bands)
-                     :sigma spreads :z t-value)))
+                     :sigma spreads :z t-value :freedom freedom)))
 
 ;;; Both
 
@@ -157,4 +157,5 @@ alpha."))
                               :intervals (verdict-intervals predicted)
                               :coefficients (verdict-coefficients predicted)
                               :sigma (verdict-sigma predicted)
-                              :z (verdict-z predicted))))))))
+                              :z (verdict-z predicted)
+                              :freedom (verdict-freedom predicted))))))))

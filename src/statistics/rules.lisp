@@ -43,7 +43,8 @@ too.  BLIND-P is false if earlier samples had a say in where it was drawn."
               (bounds-list (parameter-region-final-bounds region))))))
 
 (defstruct (verdict (:constructor make-verdict
-                        (status reason &key count intervals coefficients sigma z))
+                        (status reason
+                         &key count intervals coefficients sigma z freedom))
                     (:copier nil))
   "What a confidence rule says about some samples."
   (status :continue :type (member :confident :continue) :read-only t)
@@ -52,7 +53,8 @@ too.  BLIND-P is false if earlier samples had a say in where it was drawn."
   (intervals '() :type list :read-only t)
   (coefficients '() :type list :read-only t)
   (sigma '() :type list :read-only t)
-  (z nil :type (or null double-float) :read-only t))
+  (z nil :type (or null double-float) :read-only t)
+  (freedom nil :type (or null integer) :read-only t))
 
 (setf (documentation 'make-parameter-sample 'function)
       "Return the parameter sample with the vectors INITIAL and FINAL of double floats (SI units).
@@ -83,7 +85,10 @@ NIL if the samples do not suffice to predict."
       (documentation 'verdict-sigma 'function)
       "Return the list of the rule's measures of spread, one for each final parameter, or NIL."
       (documentation 'verdict-z 'function)
-      "Return the quantile that was used, or NIL.")
+      "Return the quantile that was used, or NIL."
+      (documentation 'verdict-freedom 'function)
+      "Return the residual degrees of freedom, samples less columns, of a verdict that rests on a
+regression, else NIL.")
 
 (defmethod print-object ((verdict verdict) stream)
   (print-unreadable-object (verdict stream :type t)

@@ -16,7 +16,8 @@
    #:action-binding #:find-action-binding #:find-action-theory #:register-action-theory
    #:all-action-theories #:make-domain
    #:revised-binding #:action-binding-class #:action-binding-type
-   #:entered-p #:action-outcomes #:outcome #:outcome-name #:outcome-event #:outcome-condition
+   #:entered-p #:action-outcomes #:outcome #:make-outcome #:outcome-name #:outcome-event
+   #:outcome-condition
    ;; exploration
    #:explore-plan #:make-exploration #:next-trace #:exploration #:exploration-traces
    #:exploration-paths #:exploration-checks #:exploration-seconds #:exploration-complete-p

@@ -20,9 +20,9 @@
 (defun domain-of-a-loose-box ()
   (domain-with-theory
    (two-regions)
-   (ec:theory-variant (symbolic:action-theory-theory (two-regions))
-                      :added '((put-down-anywhere
-                                (releases (put-down ?region1) (box-in ?region2) ?time))))))
+   (ec:revised-theory (symbolic:action-theory-theory (two-regions))
+                      :with '((put-down-anywhere
+                               (releases (put-down ?region1) (box-in ?region2) ?time))))))
 
 (defparameter *box-delivered*
   '(and (exists (?region) (happens (put-down ?region) ?time)) (holds-at (box-in r1) (+ ?time 1))))

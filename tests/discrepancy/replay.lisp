@@ -61,7 +61,7 @@
     (signals-with (df:replay-error file "no replay file") (df:replay file)))
   (with-file (file "[1, 2]" "json") (signals-with (df:replay-error file) (df:replay file)))
   (with-file (file "#.(print 1)" "json") (signals-with (df:replay-error file) (df:replay file)))
-  (replay-problem-of ("discrepancy 1\"" "discrepancy 2\"") "no replay file")
+  (replay-problem-of ("discrepancy 2\"" "discrepancy 3\"") "no replay file")
   (replay-problem-of ("\"seed\": 1" "\"seed\": -1") "\"seed\"")
   (replay-problem-of ("\"seed\": 1," "") "seed")
   (replay-problem-of ("\"seed\": 1" "\"seed\": #.(print 1)"))

@@ -5,19 +5,30 @@
 
 (in-package #:discrepancy-finder.event-calculus)
 
-(defun revised-theory (theory &key without with)
+(defun about-the-beginning-p (axiom)
+  "Return true if AXIOM says what is initially true."
+  (labels ((look (form)
+             (and (consp form)
+                  (or (eq (first form) :initially) (some #'look (rest form))))))
+    (look (axiom-formula axiom))))
+
+(defun revised-theory (theory &key without with complete-events)
   "Return THEORY without the axioms whose names are in the list WITHOUT, and with those of WITH, a
-list of (name formula), at the end; an axiom of the same name is replaced in its place.  The state
-constraints are kept.  The new theory is not registered.  Signals THEORY-ERROR."
-  (let* ((new (loop for (name formula) in with
-                    collect (parse-named-axiom theory name formula)))
-         (kept (loop for axiom in (theory-axioms theory)
-                     for replacement = (find (axiom-name axiom) new :key #'axiom-name)
-                     do (when replacement (setf new (remove replacement new)))
-                     unless (and (null replacement) (member (axiom-name axiom) without))
-                       collect (or replacement axiom))))
-    (inherit-state-constraints (theory-variant theory :axioms (append kept new))
-                               (list theory))))
+list of (name formula), in the place of older ones of the same name.  The state constraints are
+kept.  With COMPLETE-EVENTS no event happens unless an axiom makes it happen.  The new theory is not
+registered.  Signals THEORY-ERROR."
+  (let* ((axioms (loop for (name formula) in with
+                       collect (make-axiom
+                                :name (name-keyword name)
+                                :formula (normalize formula (theory-name theory)
+                                                    (format nil "axiom ~a" (name-text name))))))
+         (rest (theory-without theory (append without (mapcar #'axiom-name axioms)))))
+    (inherit-state-constraints
+     (make-checked-theory :extends (list rest) :axioms axioms
+                          :name (theory-name theory) :documentation (theory-documentation theory)
+                          :syntax (theory-syntax theory) :file (theory-file theory)
+                          :completions (and complete-events '((nil :happens))))
+     (list theory))))
 
 (defun effect-axioms (theory predicate event fluent)
   "Return the list of the axioms of THEORY that state an effect by PREDICATE (:initiates,

@@ -79,6 +79,7 @@ touched.  Return NIL, or :CONTACT and a list of two bodies."
                                :obstacles (and watched
                                                (set-difference (solid-bodies projection)
                                                                ignore)))))
+      (extend-trail projection bases done)
       (note-motion robot done steps bases fractions goal)
       (if (eq reason :contact)
           (values :contact (list body obstacle))

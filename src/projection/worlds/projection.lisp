@@ -28,6 +28,8 @@
              :documentation "How motions are stepped: :FAST or :FULL.")
    (memory :initform '() :accessor projection-memory
            :documentation "A property list of what process modules keep in mind.")
+   (trail :initform '() :accessor projection-trail
+          :documentation "Places where the base has been, newest first, if that is recorded.")
    (observer :initform nil :accessor projection-observer
              :documentation "A function that is called after each performed designator, or NIL."))
   (:documentation "A scene as a physical world, in which plans are performed."))

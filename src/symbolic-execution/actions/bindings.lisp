@@ -52,7 +52,9 @@ the value of perform.  NUMBER is its place among the outcomes of BINDING."
   (binding nil :read-only t)
   (number 0 :type (integer 0) :read-only t))
 
-(setf (documentation 'outcome-name 'function)
+(setf (documentation 'make-outcome 'function)
+      "Return a new OUTCOME; see the structure for the arguments."
+      (documentation 'outcome-name 'function)
       "Return the name of an outcome: :SUCCESS or a failure class."
       (documentation 'outcome-event 'function)
       "Return the ground event of an outcome, a list of keywords, or NIL."

@@ -1,0 +1,99 @@
+;;;; What is done with a find: confirm, shrink, explain, store, and go on or not.
+;;;;
+;;;; A search that keeps going does this for the first discrepancy of each kind, and counts those
+;;;; of a known kind.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(declaim (ftype function shrink-discrepancy explain-discrepancy))
+
+(defun make-find (search trace sample run judgement origin)
+  "Return the DISCREPANCY that RUN of SAMPLE is, not yet confirmed."
+  (make-discrepancy :plan (search-plan search) :domain (search-domain search)
+                    :constraint (search-constraint search)
+                    :parameters (search-parameters search)
+                    :execution (search-execution search) :compare (search-compare search)
+                    :seed (search-seed search) :trace trace :sample sample :run run
+                    :judgement judgement :origin origin))
+
+(defun confirm-find (search discrepancy)
+  "Run DISCREPANCY a second time, and note whether the bits are the same.  A run that was taken from
+the journal is replaced by the second one."
+  (let ((again (in-phase (search :confirm)
+                 (simulate search (discrepancy-sample discrepancy)
+                           (discrepancy-trace discrepancy))))
+        (run (discrepancy-run discrepancy)))
+    (setf (discrepancy-confirmed-p discrepancy) (= (run-hash run) (run-hash again)))
+    (when (and (discrepancy-confirmed-p discrepancy) (journaled-p run))
+      (setf (discrepancy-run discrepancy) again))))
+
+(defun examine-find (search discrepancy)
+  "Shrink, explain and store DISCREPANCY as far as SEARCH wants that."
+  (when (search-shrinks search)
+    (report-search search :shrink)
+    (setf (discrepancy-shrunk discrepancy)
+          (in-phase (search :shrink) (shrink-discrepancy discrepancy))))
+  (when (search-explains search)
+    (report-search search :explain)
+    (setf (discrepancy-explanation discrepancy)
+          (in-phase (search :explain) (explain-discrepancy discrepancy))))
+  (when (and (search-store search) (not (discrepancy-file discrepancy)))
+    (in-phase (search :store) (store-discrepancy discrepancy (search-store search)))))
+
+(defun offer-choices (discrepancy)
+  "Signal DISCREPANCY, and return what to do next: :CONTINUE, :NEXT-TRACE or :STOP."
+  (restart-case (progn (error 'discrepancy-found :discrepancy discrepancy) :stop)
+    (continue-search ()
+      :report "Draw more samples of this trace; the discrepancy stays in the result."
+      :continue)
+    (next-trace ()
+      :report "Leave this trace and take the next one; the discrepancy stays in the result."
+      :next-trace)
+    (accept ()
+      :report "End the search and return the result with the discrepancy."
+      :stop)))
+
+(defun enough-kinds-p (search)
+  "Return true if SEARCH has found as many kinds as it is to find."
+  (let ((wanted (search-keep-going search)))
+    (or (null wanted)
+        (and (integerp wanted) (>= (hash-table-count (search-kinds search)) wanted)))))
+
+(defun what-next (search discrepancy)
+  (cond ((eq (search-on-discrepancy search) :signal) (offer-choices discrepancy))
+        ((enough-kinds-p search) :stop)
+        (t :continue)))
+
+(defun note-known-kind (trace-search known)
+  "Count a find of the kind of the discrepancy KNOWN; conclude if there are no others any more."
+  (incf (discrepancy-occurrences known))
+  (when (> (incf (trace-search-repeated trace-search)) *repetition-limit*)
+    (conclude trace-search :discrepancy
+              (format nil "~d discrepancies of known kinds in a row"
+                      (trace-search-repeated trace-search)))))
+
+(defun note-new-kind (trace-search discrepancy)
+  "Examine and keep DISCREPANCY; conclude if that is what is wanted."
+  (let ((search (trace-search-search trace-search)))
+    (confirm-find search discrepancy)
+    (setf (discrepancy-runs discrepancy) (reverse (trace-search-runs trace-search)))
+    (push discrepancy (trace-search-discrepancies trace-search))
+    (examine-find search discrepancy)
+    (ecase (what-next search discrepancy)
+      (:continue nil)
+      (:next-trace (conclude trace-search :discrepancy "a discrepancy was found"))
+      (:stop (conclude trace-search :discrepancy "a discrepancy was found" t)))))
+
+(defun note-discrepancy (trace-search sample origin run judgement)
+  "Take the discrepancy that RUN of SAMPLE is into account; conclude if the trace is done with."
+  (let* ((search (trace-search-search trace-search))
+         (discrepancy (make-find search (trace-search-trace trace-search) sample run judgement
+                                 origin))
+         (kind (discrepancy-kind discrepancy))
+         (known (gethash kind (search-kinds search))))
+    (incf (trace-search-finds trace-search))
+    (cond ((and known (search-keep-going search)) (note-known-kind trace-search known))
+          (t
+           (unless known
+             (setf (gethash kind (search-kinds search)) discrepancy))
+           (note-new-kind trace-search discrepancy)))))

@@ -1,0 +1,100 @@
+;;;; The store: a folder of discrepancies, each in a replay file, that are tried before anything
+;;;; else.
+;;;;
+;;;; A stored discrepancy is tried if it is one of the same plan, domain, state constraint and scene
+;;;; parameters.  It is run in the domain of the search, as that is now, from the sample in the
+;;;; file: what theory, scene or plan have changed since has its say.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(defun store-file (discrepancy folder)
+  "Return the name of a file in FOLDER for DISCREPANCY: made of plan, seed and state hash."
+  (format nil "~a~a-~d-~a.json"
+          (source:native-name (uiop:ensure-directory-pathname (source:native-path folder)))
+          (file-name (plan:plan-name (discrepancy-plan discrepancy)))
+          (discrepancy-seed discrepancy)
+          (subseq (hash-text (run-hash (discrepancy-run discrepancy))) 0 8)))
+
+(defun store-discrepancy (discrepancy folder)
+  "Write DISCREPANCY to a file in FOLDER, which is made if need be, and return its name.  Where that
+cannot be done there is a warning: what was found is worth more than the file."
+  (let ((file (store-file discrepancy folder)))
+    (handler-case (progn (ensure-directories-exist (source:native-path file))
+                         (save-discrepancy discrepancy file))
+      ((or replay-error file-error) (condition)
+        (warn "~a is not stored: ~a" file (source:condition-sentence condition))))))
+
+(defun stored-files (folder)
+  "Return the names of the replay files in FOLDER, in the order of the alphabet."
+  (sort (mapcar #'source:native-name
+                (uiop:directory-files (uiop:ensure-directory-pathname
+                                       (source:native-path folder))
+                                      "*.json"))
+        #'string<))
+
+(defun stored-object (file)
+  "Return the JSON object in FILE, or NIL if that is none."
+  (let ((object (ignore-errors (json:parse (uiop:read-file-string (source:native-path file)
+                                                                  :external-format :utf-8)))))
+    (and (listp object) object)))
+
+(defun same-parameters-p (object parameters)
+  "Return true if the JSON OBJECT has the property list PARAMETERS of scene parameters."
+  (and (listp object)
+       (= (length object) (/ (length parameters) 2))
+       (loop for (name value) on parameters by #'cddr
+             always (eql (json:get-key object (ec:name-text name) nil) (decimal-double value)))))
+
+(defun fits-search-p (object search)
+  "Return true if the stored OBJECT is of the plan, domain, constraint and parameters of SEARCH."
+  (flet ((name (key)
+           (let ((part (json:get-key object key nil)))
+             (and (listp part) (json:get-key part "name" nil)))))
+    (and object
+         (null (json:get-key object "actions" nil)) ; one that was shrunk: its original is here, too
+         (equal (name "plan") (ec:name-text (plan:plan-name (search-plan search))))
+         (equal (name "domain")
+                (ec:name-text (symbolic:action-theory-name (search-domain search))))
+         (equal (json:get-key object "constraint" nil) (ec:name-text (search-constraint search)))
+         (same-parameters-p (json:get-key object "parameters" nil)
+                            (search-parameters search)))))
+
+(defun retry-stored (search file)
+  "Run the discrepancy in FILE again.  Return the DISCREPANCY, or NIL and why it is none any more."
+  (handler-case
+      (destructuring-bind (&key trace sample &allow-other-keys) (read-replay-file file)
+        (let* ((run (simulate search sample trace))
+               (judgement (and (eq (run-validity run) :valid) (judge search run trace))))
+          (cond ((null judgement)
+                 (values nil (format nil "its initial state is not valid any more: ~a"
+                                     (run-validity run))))
+                ((eq (judgement-verdict judgement) :discrepancy)
+                 (let ((discrepancy (make-find search trace sample run judgement :reused)))
+                   (setf (discrepancy-file discrepancy) file
+                         (discrepancy-runs discrepancy) (list (cons run judgement)))
+                   discrepancy))
+                (t (values nil "theory and simulation agree now")))))
+    (replay-error (condition)
+      (values nil (replay-error-reason condition)))))
+
+(defun reuse-stored (search)
+  "Try the stored discrepancies of SEARCH.  Return true if the search is to end."
+  (when (search-store search)
+    (dolist (file (stored-files (search-store search)))
+      (when (and (not (end-reason search))
+                 (fits-search-p (stored-object file) search))
+        (report-search search :reuse)
+        (multiple-value-bind (discrepancy text)
+            (in-phase (search :reuse) (retry-stored search file))
+          (let* ((kind (and discrepancy (discrepancy-kind discrepancy)))
+                 (known (and kind (gethash kind (search-kinds search)))))
+            (cond (known (incf (discrepancy-occurrences known)))
+                  (t
+                   (push (list discrepancy file (or text "theory and simulation disagree still"))
+                         (search-reused search))
+                   (when discrepancy
+                     (setf (gethash kind (search-kinds search)) discrepancy)
+                     (confirm-find search discrepancy)
+                     (examine-find search discrepancy)
+                     (when (enough-kinds-p search)
+                       (return t)))))))))))

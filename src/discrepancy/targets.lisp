@@ -1,0 +1,102 @@
+;;;; Targets: samples where the results of earlier rounds predict the worst.
+;;;;
+;;;; Samples are drawn in rounds of +ROUND+.  The first round is blind; in later ones every second
+;;;; sample lies near the corner of the initial region at which a linear regression, over all
+;;;; samples of the earlier rounds, predicts a final parameter nearest to its bounds or beyond.
+;;;; The several targets of a round take the worst predictions in turn, and lie between the corner
+;;;; and a random point, so that no two are the same.  How many samples are blind, and where these
+;;;; are, does not depend on any result.
+
+(in-package #:discrepancy-finder.discrepancy)
+
+(defconstant +round+ 8
+  "The number of samples in a round.")
+
+(defstruct (targeting (:constructor %make-targeting (region regression)) (:copier nil))
+  "Where targets lie: REGRESSION is over the samples of earlier rounds, FRESH are the values
+(initial . final) of the present one, newest first.  POSITION counts the draws, COUNT those that
+were targets; CORNERS are the predicted-worst ones for the present round."
+  (region nil :read-only t)
+  (regression nil :read-only t)
+  (fresh '() :type list)
+  (corners '() :type list)
+  (position 0 :type (integer 0))
+  (count 0 :type (integer 0)))
+
+(defun make-targeting (region)
+  "Return a new TARGETING for samples from the PARAMETER-REGION REGION."
+  (%make-targeting region
+                   (make-regression (length (parameter-region-initial-bounds region))
+                                    (length (parameter-region-final-bounds region)))))
+
+(defun note-values (targeting initial final)
+  "Keep the vectors INITIAL and FINAL of a sample for the rounds to come."
+  (push (cons initial final) (targeting-fresh targeting)))
+
+(defun begin-round (targeting)
+  "Let the samples of the round that ends have a say in the next one."
+  (loop for (initial . final) in (reverse (shiftf (targeting-fresh targeting) '()))
+        do (add-observation (targeting-regression targeting) initial final))
+  (setf (targeting-corners targeting)
+        (worst-corners (targeting-regression targeting) (targeting-region targeting))))
+
+(defun next-origin (targeting)
+  "Return how the next sample is to be drawn, :BLIND or :TARGETED."
+  (if (null targeting)
+      :blind
+      (multiple-value-bind (round place) (floor (targeting-position targeting) +round+)
+        (when (and (zerop place) (plusp round))
+          (begin-round targeting))
+        (incf (targeting-position targeting))
+        (if (and (plusp round) (oddp place)) :targeted :blind))))
+
+(defun between (point corner part bounds)
+  "Return the list of the coordinates that lie on the way from POINT to CORNER, vectors, at PART of
+it; the upper ends of BOUNDS are not reached."
+  (loop for value across point
+        for end across corner
+        for (min . max) across bounds
+        for mixed = (+ value (* part (- end value)))
+        collect (max min (if (< mixed max)
+                             mixed
+                             (- max (* (- max min) (scale-float 1d0 -50)))))))
+
+(defun with-drawn-values (parameters values)
+  "Return the list of the values of PARAMETERS of which those that are not fixed have VALUES."
+  (loop for parameter in parameters
+        collect (if (fixed-p parameter) (parameter-min parameter) (pop values))))
+
+(defun inside-regions-p (parameters values)
+  "Return true if bodies at VALUES of PARAMETERS lie in those regions that are no boxes."
+  (loop for parameter in parameters
+        always (or (null (parameter-region parameter))
+                   (inside-region-p (place-of parameters values (parameter-body parameter))
+                                    (parameter-region parameter)))))
+
+(defun random-corner (bounds seed content index)
+  (let ((draw 0))
+    (map 'vector (lambda (pair)
+                   (if (< (unit-float seed content index (+ 8192 (incf draw))) 1/2)
+                       (car pair)
+                       (cdr pair)))
+         bounds)))
+
+(defun target-sample (targeting parameters seed content)
+  "Return the next target of TARGETING for PARAMETERS: a function of SEED, CONTENT and the samples
+of earlier rounds."
+  (let* ((index (1- (incf (targeting-count targeting))))
+         (content (logxor content #x5461726765747321))
+         (bounds (parameter-region-initial-bounds (targeting-region targeting)))
+         (corners (targeting-corners targeting))
+         (corner (if corners
+                     (nth (mod index (length corners)) corners)
+                     (random-corner bounds seed content index)))
+         (start (drawn-values (draw-sample parameters seed content index)))
+         (spread (* 0.2d0 (expt (unit-float seed content index 8192) 2))))
+    ;; The corner of the box around a region that is no box may lie outside of it.
+    (loop for part in (list (- 1 spread) 0.75d0 0.5d0 0.25d0 0d0)
+          for values = (with-drawn-values parameters (between start corner part bounds))
+          when (inside-regions-p parameters values)
+            return (make-sample index parameters
+                                (coerce values '(simple-array double-float (*))))
+          finally (return (draw-sample parameters seed content index)))))

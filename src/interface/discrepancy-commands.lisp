@@ -1,0 +1,64 @@
+;;;; The subcommands about a stored discrepancy: replay it, say why it is one, make it smaller.
+
+(in-package #:discrepancy-finder)
+
+(defun file-argument (arguments command)
+  "Return the only one of ARGUMENTS, the file of COMMAND."
+  (unless (= (length arguments) 1)
+    (usage-problem "~a takes one file." command))
+  (first arguments))
+
+(defun verdict-code (result)
+  "Return the exit status that a REPLAY-RESULT means."
+  (ecase (replay-verdict result)
+    (:discrepancy 1)
+    (:consistent 0)
+    ((:left-trace :invalid) 3)))
+
+(define-subcommand "replay" (arguments options)
+    ("FILE"
+     "Run a stored discrepancy again, and say whether it comes out the same.")
+  (let ((result (replay (file-argument arguments "replay"))))
+    (write-string (replay-text result))
+    (verdict-code result)))
+
+(defun call-with-replayed (function arguments command)
+  "Replay the file that ARGUMENTS name.  If the discrepancy shows again call FUNCTION with it, else
+print the replay.  Return the exit status."
+  (let* ((result (replay (file-argument arguments command)))
+         (discrepancy (discrepancy:replay-discrepancy result)))
+    (if discrepancy
+        (funcall function discrepancy)
+        (write-string (replay-text result)))
+    (verdict-code result)))
+
+(define-subcommand "explain" (arguments options)
+    ("FILE [--runs N]"
+     "Say why a stored discrepancy is one: axioms, coordinates, candidate edits of the theory."
+     (("runs") :type integer :documentation "largest number of simulations (30)"))
+  (call-with-replayed
+   (lambda (discrepancy)
+     (write-string (discrepancy-text discrepancy :command (command-name)))
+     (write-string (discrepancy:explanation-text
+                    (discrepancy:explain-discrepancy discrepancy
+                                                     :max-runs (or (getf options :runs) 30)))))
+   arguments "explain"))
+
+(define-subcommand "shrink" (arguments options)
+    ("FILE [--runs N] [--seconds S] [--save FILE]"
+     "Look for the smallest case of a stored discrepancy, and the nearest sample that passes."
+     (("runs") :type integer :documentation "largest number of simulations (300)")
+     (("seconds") :type string :documentation "longest time in seconds (60)")
+     (("save") :type string :documentation "file for the smallest case"))
+  (call-with-replayed
+   (lambda (discrepancy)
+     (let ((shrinking (discrepancy:shrink-discrepancy
+                       discrepancy
+                       :max-runs (or (getf options :runs) 300)
+                       :max-seconds (if (getf options :seconds)
+                                        (number-argument (getf options :seconds) "--seconds")
+                                        60))))
+       (when (getf options :save)
+         (save-discrepancy (discrepancy:shrinking-discrepancy shrinking) (getf options :save)))
+       (write-string (discrepancy:shrinking-text shrinking :command (command-name)))))
+   arguments "shrink"))

@@ -1,0 +1,78 @@
+;;;; Progress: what a search is doing, in one line on a terminal.
+;;;;
+;;;; The line is on standard error, is written over again and again, and is gone at the end.  Where
+;;;; standard error is no terminal nothing is written.  CALL-WITH-PROGRESS is the entry point; while
+;;;; it runs, C-c and SIGTERM let the search end after the simulation it is at, with what it has
+;;;; found; the second time they end the process.
+
+(in-package #:discrepancy-finder)
+
+(defparameter *progress-interval* 0.1d0
+  "The least time (s) between two changes of the line.")
+
+(defparameter *phase-texts*
+  '((:explore . "exploring the plan") (:reuse . "retrying stored discrepancies")
+    (:generate . "simulating") (:target . "simulating where it may fail")
+    (:confirm . "confirming") (:shrink . "shrinking") (:explain . "explaining")
+    (:store . "storing"))
+  "What the phases of a search are called in the line.")
+
+(defun terminal-p (stream)
+  "Return true if STREAM is a terminal on which a line can be written over."
+  (and (interactive-stream-p stream)
+       (not (equal (uiop:getenv "TERM") "dumb"))))
+
+(defun progress-text (&key phase trace (simulations 0) (discrepancies 0) (seconds 0)
+                        &allow-other-keys)
+  "Return the line for what a search reports, see the option PROGRESS of FIND-DISCREPANCIES."
+  (format nil "~a~@[, trace ~d~], ~d simulation~:p~@[, ~d kind~:p of discrepancies~], ~d s"
+          (or (cdr (assoc phase *phase-texts*)) (string-downcase phase))
+          (and trace (plusp trace) trace) simulations
+          (and (plusp discrepancies) discrepancies) (floor seconds)))
+
+(defun write-progress (text stream)
+  "Write TEXT, at most 78 characters of it, over the line on STREAM."
+  (format stream "~c~a~c[K" #\Return (subseq text 0 (min 78 (length text))) #\Escape)
+  (finish-output stream))
+
+(defun clear-progress (stream)
+  (write-progress "" stream))
+
+(defun progress-function (stream)
+  "Return a function for the option PROGRESS of a search that writes its line on STREAM, or NIL if
+that is no terminal."
+  (when (terminal-p stream)
+    (let ((last nil))
+      (lambda (&rest report)
+        (let ((now (foreign:monotonic-seconds)))
+          (when (or (null last) (>= (- now last) *progress-interval*))
+            (setf last now)
+            (write-progress (apply #'progress-text report) stream)))))))
+
+;;; Interruption
+
+(defun call-stopping-on-signals (function)
+  "Call FUNCTION; SIGINT and SIGTERM ask searches to end with what they have found, and end the
+process the second time."
+  (let ((asked nil))
+    (flet ((handler (status)
+             (lambda (&rest signal)
+               (declare (ignore signal))
+               (when asked (leave status))
+               (setf asked t)
+               (format *error-output* "~&interrupted: the search ends after this simulation~%")
+               (finish-output *error-output*)
+               (discrepancy:request-stop))))
+      (sb-sys:enable-interrupt sb-unix:sigint (handler 130))
+      (sb-sys:enable-interrupt sb-unix:sigterm (handler 143))
+      (unwind-protect (funcall function)
+        (sb-sys:enable-interrupt sb-unix:sigint #'sb-unix::sigint-handler)
+        (sb-sys:enable-interrupt sb-unix:sigterm #'terminate)))))
+
+(defun call-with-progress (function)
+  "Call FUNCTION with a function for the option PROGRESS of a search, or NIL, and return its values;
+signals are taken as above."
+  (let ((progress (progress-function *error-output*)))
+    (unwind-protect (call-stopping-on-signals (lambda () (funcall function progress)))
+      (when progress
+        (clear-progress *error-output*)))))

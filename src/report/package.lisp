@@ -1,0 +1,11 @@
+(defpackage #:discrepancy-finder.report
+  (:documentation "Results of searches as pages for a browser.")
+  (:use #:cl #:discrepancy-finder.geometry)
+  (:local-nicknames (#:ec #:discrepancy-finder.event-calculus)
+                    (#:symbolic #:discrepancy-finder.symbolic-execution)
+                    (#:projection #:discrepancy-finder.projection)
+                    (#:discrepancy #:discrepancy-finder.discrepancy)
+                    (#:plan #:discrepancy-finder.plan-language)
+                    (#:source #:discrepancy-finder.source)
+                    (#:json #:discrepancy-finder.json))
+  (:export #:write-report))
