@@ -185,6 +185,36 @@
                 (discrepancy:result-reason result)))
     (is (search "penetrate" (discrepancy:result-reason result)))))
 
+;;; Cost
+
+(test a-late-sample-costs-what-an-early-one-does
+  "Work is counted in bytes of memory that are asked for."
+  (let* ((region (statistics:make-parameter-region #((0d0 . 1d0) (0d0 . 1d0)) #((0d0 . 2d0))))
+         (evidence (statistics:make-evidence region))
+         (targeting (discrepancy::make-targeting region))
+         (rule (statistics:make-confidence-rule :sound :delta 1d-6))
+         (state (sb-ext:seed-random-state 1))
+         (count 0))
+    (flet ((work (samples)
+             (let ((before (sb-ext:get-bytes-consed)))
+               (loop repeat samples
+                     for x = (double-vector (list (random 1d0 state) (random 1d0 state)))
+                     for y = (double-vector (list (+ (aref x 0) (aref x 1)
+                                                     (random 1d-3 state))))
+                     do (incf count)
+                        (discrepancy::next-origin targeting)
+                        (discrepancy::note-values targeting x y)
+                        (statistics:add-sample evidence
+                                               (statistics:make-parameter-sample x y))
+                        (statistics:evidence-verdict rule evidence))
+               (- (sb-ext:get-bytes-consed) before))))
+      (work 128)
+      (let ((early (work 1280)))
+        (work 7300)
+        (let ((late (work 1280)))
+          (is (= 9988 count (statistics:evidence-blind evidence)))
+          (is (< late (* 1.1 early))))))))
+
 ;;; The store
 
 (defmacro with-folder ((folder) &body body)
