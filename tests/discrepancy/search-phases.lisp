@@ -40,7 +40,8 @@
     (is (search "budget of 60" (discrepancy:result-stopped result)))
     (is (= 60 (length (sample-hashes result))))
     (is (= (discrepancy:discrepancy-occurrences discrepancy)
-           (count :discrepancy (discrepancy:trace-result-runs (first (discrepancy:result-traces result)))
+           (count :discrepancy (discrepancy:trace-result-runs
+                                (first (discrepancy:result-traces result)))
                   :key (lambda (entry) (discrepancy:judgement-verdict (cdr entry))))))
     (is (search (format nil "found ~d times" (discrepancy:discrepancy-occurrences discrepancy))
                 (discrepancy:result-text result))))
