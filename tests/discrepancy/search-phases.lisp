@@ -220,12 +220,7 @@
 
 (defmacro with-folder ((folder) &body body)
   "Evaluate BODY with FOLDER bound to the name of a new folder that is deleted afterwards."
-  `(let ((,folder (namestring (uiop:ensure-directory-pathname
-                               (merge-pathnames (format nil "df-~36r" (random (expt 36 8)))
-                                                (uiop:temporary-directory))))))
-     (unwind-protect (progn ,@body)
-       (uiop:delete-directory-tree (uiop:ensure-directory-pathname ,folder)
-                                   :validate t :if-does-not-exist :ignore))))
+  `(call-in-new-folder (lambda (,folder) ,@body)))
 
 (test stored-discrepancies-are-tried-first
   (with-folder (folder)
