@@ -35,12 +35,10 @@ the journal is replaced by the second one."
 (defun examine-find (search discrepancy)
   "Shrink, explain and store DISCREPANCY as far as SEARCH wants that; when it is to end, store."
   (when (and (search-shrinks search) (not **stop-requested**))
-    (report-search search :shrink)
     (setf (discrepancy-shrunk discrepancy)
           (in-phase (search :shrink)
             (apply #'shrink-discrepancy discrepancy (remaining-time search)))))
   (when (and (search-explains search) (not **stop-requested**))
-    (report-search search :explain)
     (setf (discrepancy-explanation discrepancy)
           (in-phase (search :explain)
             (apply #'explain-discrepancy discrepancy (remaining-time search)))))

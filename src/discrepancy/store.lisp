@@ -84,7 +84,6 @@ cannot be done there is a warning: what was found is worth more than the file."
     (dolist (file (stored-files (search-store search)))
       (when (and (not (end-reason search))
                  (fits-search-p (stored-object file) search))
-        (report-search search :reuse)
         (multiple-value-bind (discrepancy text)
             (in-phase (search :reuse) (retry-stored search file))
           (let* ((kind (and discrepancy (discrepancy-kind discrepancy)))

@@ -78,12 +78,15 @@
 
 (test progress-tells-the-phase
   (let ((phases '()))
-    (find-in-example 0.8 :rule :sound :targets t :budget 30
-                         :progress (lambda (&key phase trace verdict &allow-other-keys)
-                                     (is (= 1 trace))
-                                     (is-true verdict)
+    (find-in-example 0.5 :rule :sound :targets t :budget 30 :keep-going t
+                         :progress (lambda (&key phase trace simulations verdict
+                                            &allow-other-keys)
+                                     (when (eq phase :target)
+                                       (is (= 1 trace))
+                                       (is (< 8 simulations))
+                                       (is-true verdict))
                                      (pushnew phase phases)))
-    (is (equal '(:generate :target) (sort phases #'string<)))))
+    (is (equal '(:confirm :explore :generate :target) (sort phases #'string<)))))
 
 ;;; Targets
 
