@@ -175,7 +175,7 @@ SETTINGS is a list of (targets traces)."
   (format stream "misses in % (mean number of samples) by each rule, asked after every sample, ~
                   delta 5 %, ~d replicates~%" replicates)
   (loop for (targets traces) in settings
-        do (format stream "~:[no targets~;targets~], ~d trace~:p~%~28t~{~16@a~}~12@a~%" targets
+        do (format stream "~:[no targets~;targets~], ~d trace~:p~%~32t~{~16@a~}~12@a~%" targets
                    traces (mapcar #'string-downcase *calibration-rules*) "statement")
            (loop for (kind jump-p n p) in *calibration-cells*
                  for margin = (if jump-p 0.4d0 (tail-margin kind n p))
@@ -185,7 +185,7 @@ SETTINGS is a list of (targets traces)."
                                              :targets targets :traces traces
                                              :confidence confidence)
                                   replicates)))
-                        (format stream "~(~a~), ~:[tail~;jump~] n=~d p=~2d % C=~2d %~28t~
+                        (format stream "~(~a~), ~:[tail~;jump~] n=~d p=~2d % C=~2d %~32t~
                                         ~:{~8,1f ~7@a~}~12,1f~%"
                                 kind jump-p n (round (* 100 p)) (round (* 100 confidence))
                                 (loop for (misses . samples) in (butlast row)
