@@ -3,8 +3,9 @@
 ;;;; SAVE-DISCREPANCY writes a JSON file with all that the run depends on: plan, domain, parameters,
 ;;;; trace, the sample's numbers, and a hash of the bits of the final state; for one that was shrunk
 ;;;; also the actions that are performed in the place of the plan, and the items that are left out.
-;;;; REPLAY runs it again, in any process, and tells "same bits" from "same verdict, other bits" and "other verdict".
-;;;; Reading a file evaluates nothing, and a file that is not right in every part is refused.
+;;;; REPLAY runs it again, in any process, and tells "same bits" from "same verdict, other bits" and
+;;;; "other verdict".  Reading a file evaluates nothing, and a file that is not right in every part is
+;;;; refused.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -202,7 +203,8 @@ or :FINISH for no more stops.  Signals REPLAY-ERROR, SOURCE-ERROR."
                      (same-verdict :same-verdict)
                      (t :other-verdict))
        :run run :judgement judgement
-       :compared (compared-run domain trace run comparison) :recorded-hash (first recorded) :changed-files changed-files
+       :compared (compared-run domain trace run comparison)
+       :recorded-hash (first recorded) :changed-files changed-files
        :discrepancy (and (eq (judgement-verdict judgement) :discrepancy)
                          (make-discrepancy
                           :plan plan :domain domain :parameters parameters :execution execution
