@@ -146,12 +146,24 @@ them."
                   (slot-value discrepancy 'runs)
                   '())))
 
-(defun candidate-edits (discrepancy &key (runs (known-runs discrepancy)))
+(defun without-guesses (edits)
+  "Return EDITS, best first, without the guesses where something better removes the discrepancy and
+contradicts nothing; else with the best two."
+  (flet ((guess-p (edit) (eq (edit-kind edit) :guess)))
+    (if (some (lambda (edit)
+                (and (not (guess-p edit)) (edit-removes-p edit) (zerop (edit-contradicted edit))))
+              edits)
+        (remove-if #'guess-p edits)
+        (let ((more (nthcdr 2 (remove-if-not #'guess-p edits))))
+          (remove-if (lambda (edit) (member edit more)) edits)))))
+
+(defun candidate-edits (discrepancy &key (runs (known-runs discrepancy)) guesses)
   "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
 checked by judging again RUNS, a list of valid runs or of (RUN . JUDGEMENT) in the same domain, and
 the run of DISCREPANCY itself.  By default RUNS are those of the same trace that the search has
-made."
+made.  With GUESSES preconditions of what has succeeded in no run are not left out."
   (let* ((run (discrepancy-run discrepancy))
-         (runs (adjoin run (plain-runs runs))))
-    (z3:with-context (context)
-      (edits-for-run (discrepancy-domain discrepancy) run runs context))))
+         (runs (adjoin run (plain-runs runs)))
+         (edits (z3:with-context (context)
+                  (edits-for-run (discrepancy-domain discrepancy) run runs context))))
+    (if guesses edits (without-guesses edits))))

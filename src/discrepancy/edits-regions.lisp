@@ -5,12 +5,21 @@
 ;;;; of the others, or the other way round.  The edit adds a fluent that tells whether the coordinate
 ;;;; is in this range, and lets the precondition or the effect depend on it.  Checked against the
 ;;;; runs, the fluent is as it was in the beginning; what the actions do to it, the next search
-;;;; tells.
+;;;; tells.  Few runs are separated by some coordinate anyhow: where that is likely nothing is
+;;;; proposed.
 
 (in-package #:discrepancy-finder.discrepancy)
 
-(defparameter *agreeing-runs-needed* 3
-  "A region is refined only if theory and simulation agree in so many runs.")
+(defparameter *separation-chance* 0.05d0
+  "A region is refined only if it is at most so likely that a coordinate separates the runs by
+chance.")
+
+(defun separation-chance (parameters agreeing others)
+  "Return a bound of the probability that one of so many PARAMETERS, which have nothing to do with
+it, separates so many AGREEING runs from so many OTHERS: in a random order the ones or the others
+stand next to each other."
+  (/ (* parameters (+ agreeing others 2d0))
+     (alexandria:binomial-coefficient (+ agreeing others) others)))
 
 (defun sample-coordinate (sample body axis)
   "Return the value that SAMPLE gives the coordinate AXIS of BODY, or NIL."
@@ -56,11 +65,16 @@ part of the parameter's range."
                        (list (/ margin (- high low)) parameter min max (and inside t))))
      #'> :key #'first)))
 
-(defun separable-parameters (sample)
-  "Return the parameters of SAMPLE that are coordinates of bodies and were drawn."
+(defun separable-parameters (sample samples)
+  "Return the parameters of SAMPLE that are coordinates of bodies and were drawn, not the same in all
+SAMPLES."
   (remove-if-not (lambda (parameter)
                    (and (keywordp (parameter-body parameter)) (not (fixed-p parameter))
-                        (assoc (parameter-axis parameter) *axes*)))
+                        (assoc (parameter-axis parameter) *axes*)
+                        (rest (remove-duplicates
+                               (loop for sample in samples
+                                     collect (sample-coordinate sample (parameter-body parameter)
+                                                                (parameter-axis parameter)))))))
                  (sample-parameters sample)))
 
 (defun new-range (theory parameter min max)
@@ -147,9 +161,11 @@ AGREED tells how far the theory agrees with RUNS."
                      when (>= far past) collect (run-sample run)))
          (bad (loop for run in runs for far in agreed
                     when (= far own) collect (run-sample run)))
+         (parameters (separable-parameters (run-sample run) (append good bad)))
          (transitions (loop for run in runs append (remove nil (run-transitions domain run)))))
-    (when (>= (length good) *agreeing-runs-needed*)
-      (loop for entry in (separating-ranges (separable-parameters (run-sample run)) good bad)
+    (when (and good (<= (separation-chance (length parameters) (length good) (length bad))
+                        *separation-chance*))
+      (loop for entry in (separating-ranges parameters good bad)
             repeat 2
             for parts = (region-edit domain transition divergence transitions entry)
             when parts collect parts))))

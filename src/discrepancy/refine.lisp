@@ -99,7 +99,8 @@ NIL, and the list of the results."
 (defun apply-best-edit (refining discrepancy)
   "Change the domain of REFINING by the best edit for DISCREPANCY, and note that.  Return true
 unless there is none."
-  (let* ((edits (candidate-edits discrepancy :runs (reverse (refining-runs refining))))
+  (let* ((edits (candidate-edits discrepancy :guesses t
+                                             :runs (reverse (refining-runs refining))))
          (edit (chosen-edit edits)))
     (push (make-refinement-step :discrepancy discrepancy :edit edit
                                 :alternatives (remove edit edits)
