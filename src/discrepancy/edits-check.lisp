@@ -13,8 +13,8 @@
   (mapcar (lambda (step) (refreshed-step domain step)) (run-steps run)))
 
 (defun initial-observation (domain run)
-  "Return what was observed at the beginning of RUN, with the fluents of coordinate ranges that DOMAIN
-has and the domain of RUN had not, by the run's sample."
+  "Return what was observed at the beginning of RUN, with the fluents of coordinate ranges that
+DOMAIN has and the domain of RUN had not, by the run's sample."
   (append (run-initial-state run)
           (loop for observer in (domain-observers domain)
                 for value = (and (coordinate-range-p observer)
@@ -64,13 +64,14 @@ edited, a state in which the action can succeed."
       (event-possible-p domain (transition-success transition) context)))
 
 (defun checked-edit (domain parts transition run runs agreed context)
-  "Return the EDIT of PARTS (kind sentences replaced requirements ranges) of DOMAIN, checked against RUNS,
-or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed.  AGREED
-tells how far the theory agrees with RUNS now; RUN, one of RUNS, is that of the discrepancy."
+  "Return the EDIT of PARTS (kind sentences replaced requirements ranges) of DOMAIN, checked against
+RUNS, or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed.
+AGREED tells how far the theory agrees with RUNS now; RUN, one of RUNS, is that of the discrepancy."
   (destructuring-bind (kind sentences replaced &optional requirements ranges) parts
     (flet ((edit (&rest figures)
              (apply #'make-edit :kind kind :sentences sentences :replaced replaced
-                                :requirements requirements :ranges ranges :runs (length runs) figures)))
+                                :requirements requirements :ranges ranges
+                                :runs (length runs) figures)))
       (let* ((edited (handler-case (edited-domain domain (edit))
                        (ec:theory-error () (return-from checked-edit nil))))
              (now (if (requirements-possible-p edited (edit) transition context)
@@ -110,8 +111,8 @@ says more."
 
 (defun edit-parts-for (domain transition run runs agreed divergence context)
   "Return the parts (kind sentences replaced requirements ranges) of edits for DIVERGENCE of RUN at
-TRANSITION, best first; RUNS are those to learn from, and AGREED tells how far the theory agrees with
-them."
+TRANSITION, best first; RUNS are those to learn from, and AGREED tells how far the theory agrees
+with them."
   (let ((transitions (loop for run in runs append (remove nil (run-transitions domain run)))))
     (append (region-edits domain transition divergence run runs agreed)
             (if (eq (divergence-kind divergence) :outcome)

@@ -1,12 +1,11 @@
-;;;; Edits that refine a region: theory and simulation agree where a coordinate of a body lies in one
-;;;; part of it, and part where it lies in the other.
+;;;; Edits that refine a region: theory and simulation agree where a coordinate of a body lies in
+;;;; one part of it, and part where it lies in the other.
 ;;;;
 ;;;; A coordinate SEPARATES the runs if the values of those that agree lie in a range that has none
-;;;; of the others, or the other way round.  The edit adds a fluent that tells whether the coordinate
-;;;; is in this range, and lets the precondition or the effect depend on it.  Checked against the
-;;;; runs, the fluent is as it was in the beginning; what the actions do to it, the next search
-;;;; tells.  Few runs are separated by some coordinate anyhow: where that is likely nothing is
-;;;; proposed.
+;;;; of the others, or the other way round.  The edit adds a fluent, that the coordinate is in this
+;;;; range, and lets the precondition or the effect depend on it.  Checked against the runs, the
+;;;; fluent is as it was in the beginning; what the actions do to it, the next search tells.  Few
+;;;; runs are separated by some coordinate anyhow: where that is likely nothing is proposed.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -66,8 +65,8 @@ part of the parameter's range."
      #'> :key #'first)))
 
 (defun separable-parameters (sample samples)
-  "Return the parameters of SAMPLE that are coordinates of bodies and were drawn, not the same in all
-SAMPLES."
+  "Return the parameters of SAMPLE that are coordinates of bodies and were drawn, not the same in
+all SAMPLES."
   (remove-if-not (lambda (parameter)
                    (and (keywordp (parameter-body parameter)) (not (fixed-p parameter))
                         (assoc (parameter-axis parameter) *axes*)

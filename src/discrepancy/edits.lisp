@@ -32,10 +32,10 @@ one of FAILURES.  MODE is as for SYMBOLIC:REVISED-BINDING."
 
 (defstruct (edit (:copier nil))
   "A change of a theory.  KIND is one of :EFFECT, :RELEASE, :WEAKEN, :REQUIREMENT, :GUESS,
-:MAY-FAIL and :REGION, what it is about.  SENTENCES is a list of (name formula), REPLACED a list of names of
-axioms, REQUIREMENTS a list of requirements, RANGES a list of coordinate ranges, whose fluents are
-new.  CONTRADICTED of RUNS runs, the failing ones among
-them, are further from the edited theory than from the old one."
+:MAY-FAIL and :REGION, what it is about.  SENTENCES is a list of (name formula), REPLACED a list of
+names of axioms, REQUIREMENTS a list of requirements, RANGES a list of coordinate ranges, whose
+fluents are new.  CONTRADICTED of the RUNS runs that it was checked against agreed further with the
+theory before."
   (kind :effect :type keyword :read-only t)
   (sentences '() :type list :read-only t)
   (replaced '() :type list :read-only t)
@@ -49,8 +49,8 @@ them, are further from the edited theory than from the old one."
       "Return what an edit is about: :EFFECT (sentences of what actions change), :RELEASE (the
 change is left open), :WEAKEN (a sentence is taken out), :REQUIREMENT (a precondition), :GUESS (a
 precondition of what has never succeeded in the runs), :MAY-FAIL (an action may fail at any time),
-:REGION (a region is refined: a new fluent tells whether a coordinate lies in a range, and the effect
-or the precondition depends on it)."
+:REGION (a region is refined: a new fluent tells whether a coordinate lies in a range, and the
+effect or the precondition depends on it)."
       (documentation 'edit-sentences 'function)
       "Return the sentences that an edit adds to the theory: a list of (name formula)."
       (documentation 'edit-replaced 'function)
@@ -60,8 +60,8 @@ or the precondition depends on it)."
       (documentation 'edit-ranges 'function)
       "Return the coordinate ranges whose fluents an edit adds: a list."
       (documentation 'edit-removes-p 'function)
-      "Return true if an edit removes the discrepancy: theory and simulation no longer part where they
-did."
+      "Return true if an edit removes the discrepancy: theory and simulation no longer part where
+they did."
       (documentation 'edit-contradicted 'function)
       "Return the number of runs with which the theory agrees longer without the edit."
       (documentation 'edit-runs 'function)
@@ -136,6 +136,7 @@ registered.  Signals THEORY-ERROR."
                                            (edit-requirements edit))
                  :documentation (domain-documentation domain)
                  :scene (domain-scene domain) :regions (domain-regions domain)
-                 :observers (append (domain-observers domain) (edit-ranges edit)) :file (domain-file domain)
+                 :observers (append (domain-observers domain) (edit-ranges edit))
+                 :file (domain-file domain)
                  :extended-files (domain-extended-files domain)
                  :clauses (domain-clauses domain)))

@@ -193,7 +193,8 @@
 (test a-region-is-refined-where-a-coordinate-separates
   (let* ((trace (example-trace))
          (domain (discrepancy:domain-with-parameters (two-regions) '(:reach 0.5)))
-         (passing (loop for x in '(1.25 1.4 1.45 1.5 1.6 1.75) for y in '(0.4 0.39 0.402 0.41 0.385 0.4)
+         (passing (loop for x in '(1.25 1.4 1.45 1.5 1.6 1.75)
+                        for y in '(0.4 0.39 0.402 0.41 0.385 0.4)
                         collect (run-of trace 0.5 0.5 0 x y 0.3)))
          (failing (loop for x in '(1.1 1.12 1.15 1.85 1.9 1.95)
                         for y in '(0.4 0.395 0.39 0.4 0.405 0.41)

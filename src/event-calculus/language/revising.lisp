@@ -15,8 +15,8 @@
 (defun revised-theory (theory &key without with fluents complete-events)
   "Return THEORY without the axioms whose names are in the list WITHOUT, and with those of WITH, a
 list of (name formula), in the place of older ones of the same name.  The state constraints are
-kept.  FLUENTS are further ones, as THEORY-FLUENTS has them.  With COMPLETE-EVENTS no event happens unless an axiom makes it happen.  The new theory is not
-registered.  Signals THEORY-ERROR."
+kept.  FLUENTS are further ones, as THEORY-FLUENTS has them.  With COMPLETE-EVENTS no event happens
+unless an axiom makes it happen.  The new theory is not registered.  Signals THEORY-ERROR."
   (let* ((axioms (loop for (name formula) in with
                        collect (make-axiom
                                 :name (name-keyword name)
