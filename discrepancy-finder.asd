@@ -445,7 +445,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
                              (:file "regions") (:file "search") (:file "judgement")
-                             (:file "replay")
+                             (:file "replay") (:file "search-phases") (:file "journal")
                              (:file "table-top") (:file "tolerances") (:file "shrink")
                              (:file "side-by-side")))
                (:module "kitchen" :pathname "projection/" :serial t
@@ -466,5 +466,6 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "evaluator")
                (:file "household") (:file "clingo") (:file "bounded") (:file "progression")
-               (:file "exploration") (:file "calibration") (:file "transport")
+               (:file "exploration") (:file "calibration") (:file "searching")
+               (:file "transport")
                (:file "benchmarks")))
