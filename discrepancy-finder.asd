@@ -62,7 +62,8 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "repl") (:file "command-line") (:file "progress")
                (:file "simulate") (:file "subcommands") (:file "find-command")
                (:file "plan-commands") (:file "discrepancy-commands")
-               (:file "theory-commands") (:file "image"))
+               (:file "theory-commands")
+               (:file "table1") (:file "table1-text") (:file "table1-command") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
 (asdf:defsystem "discrepancy-finder/geometry"
@@ -265,7 +266,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "verification") (:file "trace-json") (:file "world")))
                (:module "coverage"
                 :serial t
-                :components ((:file "coverage") (:file "text") (:file "html")))))
+                :components ((:file "coverage") (:file "grounds") (:file "text") (:file "html")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -345,7 +346,7 @@ The environment variable CXX names another compiler than g++."))
                (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
                (:file "explain-text")
                (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
-               (:file "boundary") (:file "shrink") (:file "brute-force")
+               (:file "boundary") (:file "shrink") (:file "review") (:file "brute-force")
                (:file "refine") (:file "refine-text")
                (:file "result-json")))
 
@@ -445,15 +446,20 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
                              (:file "regions") (:file "search") (:file "judgement")
+                             (:file "explain") (:file "review")
                              (:file "replay") (:file "search-phases") (:file "journal")
                              (:file "table-top") (:file "tolerances") (:file "shrink")
-                             (:file "side-by-side")))
+                             (:file "side-by-side") (:file "edits") (:file "refinement")
+                             (:file "brute-force")))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
                (:module "drawers" :pathname "plans/"
-                :components ((:file "looking-into-drawers")))
-               (:file "interface") (:file "theory-commands") (:file "readme")
+                :components ((:file "setting-the-table") (:file "looking-into-drawers")))
+               (:file "interface") (:file "interface-search")
+               (:module "report" :serial t
+                :components ((:file "results") (:file "pages") (:file "browser")))
+               (:file "theory-commands") (:file "readme") (:file "tutorial")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
   :perform (asdf:test-op (operation system)
