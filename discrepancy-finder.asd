@@ -62,7 +62,8 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "repl") (:file "command-line") (:file "progress")
                (:file "simulate") (:file "subcommands") (:file "find-command")
                (:file "plan-commands") (:file "discrepancy-commands")
-               (:file "theory-commands") (:file "image"))
+               (:file "theory-commands")
+               (:file "table1") (:file "table1-text") (:file "table1-command") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
 (asdf:defsystem "discrepancy-finder/geometry"
@@ -448,12 +449,13 @@ The environment variable CXX names another compiler than g++."))
                              (:file "explain") (:file "review")
                              (:file "replay") (:file "search-phases") (:file "journal")
                              (:file "table-top") (:file "tolerances") (:file "shrink")
-                             (:file "side-by-side") (:file "edits") (:file "refinement")))
+                             (:file "side-by-side") (:file "edits") (:file "refinement")
+                             (:file "brute-force")))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
                (:module "drawers" :pathname "plans/"
-                :components ((:file "looking-into-drawers")))
+                :components ((:file "setting-the-table") (:file "looking-into-drawers")))
                (:file "interface") (:file "interface-search")
                (:module "report" :serial t
                 :components ((:file "results") (:file "pages") (:file "browser")))

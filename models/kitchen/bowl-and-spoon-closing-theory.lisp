@@ -11,6 +11,7 @@
   "What a modeller writes who has seen an object lost, and the robot stopped by a drawer."
   (:extends "bowl-and-spoon-theory.lisp")
   (:without pick-up-holds pick-up-lifts-off pick-up-takes-out)
+  (:predicates (blocks drawer place))
   (:non-inertial-fluents
    ;; what nobody knows beforehand
    (slips item) (lands-on item surface) (lands-in item drawer))
@@ -65,6 +66,9 @@
                   (holds-at (lands-in ?item ?drawer) ?time))
              (initiates (navigate ?place) (in ?item ?drawer) ?time)))
 
-   ;; An open drawer blocks the way.
-   (navigate-needs-closed-drawers
-    (implies (happens (navigate ?place) ?time) (not (holds-at (open ?drawer) ?time))))))
+   ;; Open, the middle drawer is where the robot would stand before the workspace.
+   (middle-drawer-blocks-the-workspace
+    (iff (blocks ?drawer ?place) (and (= ?drawer drawer-2) (= ?place before-workspace))))
+   (navigate-needs-a-place-that-no-drawer-blocks
+    (implies (and (happens (navigate ?place) ?time) (blocks ?drawer ?place))
+             (not (holds-at (open ?drawer) ?time))))))

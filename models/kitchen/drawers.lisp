@@ -14,12 +14,3 @@ drawer's walls permit.  All poses from which the plan looks into a drawer are in
   (:region before-drawer-3 (box (x -1.25 -0.95) (y 0.4 0.9)))
   (:placement (in spoon ?drawer) :body spoon
               :coordinates ((x -2.285 -1.955) (y (middle 0.24)) (z 0.6105) (yaw 1.47 1.67))))
-
-(define-action (action picking-up) (object arm)
-  (:domain kitchen-drawers)
-  (:event (pick-up arm (desig-prop-value object :type)))
-  (:requires (and (reachable (desig-prop-value object :type))
-                  (detected (desig-prop-value object :type))
-                  (gripper-open arm)))
-  ;; Whatever keeps the hand from its goal.
-  (:failure manipulation-low-level-failure))

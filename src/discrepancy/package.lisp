@@ -101,4 +101,4 @@ search, replay.")
    ;; simulation without a trace
    #:simulate-blindly #:allowed-initial-states #:blind-result #:blind-result-simulations
    #:blind-result-rejected #:blind-result-kinds #:blind-result-discrepancy
-   #:blind-result-seconds))
+   #:blind-result-seconds #:discrepancy-summary))
