@@ -62,7 +62,8 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "repl") (:file "command-line") (:file "progress")
                (:file "simulate") (:file "subcommands") (:file "find-command")
                (:file "plan-commands") (:file "discrepancy-commands")
-               (:file "theory-commands") (:file "image"))
+               (:file "theory-commands")
+               (:file "table1") (:file "table1-text") (:file "table1-command") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
 (asdf:defsystem "discrepancy-finder/geometry"
@@ -265,7 +266,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "verification") (:file "trace-json") (:file "world")))
                (:module "coverage"
                 :serial t
-                :components ((:file "coverage") (:file "text") (:file "html")))))
+                :components ((:file "coverage") (:file "grounds") (:file "text") (:file "html")))))
 
 (asdf:defsystem "discrepancy-finder/projection"
   :description "Plans executed in a physical world."
@@ -337,14 +338,15 @@ The environment variable CXX names another compiler than g++."))
                (:file "results") (:file "search-results") (:file "search-state")
                (:file "targets") (:file "trace-search") (:file "finds") (:file "statements")
                (:file "report")
-               (:file "scene-runs") (:file "action-json") (:file "replay") (:file "replay-file")
+               (:file "scene-runs") (:file "action-json")
+               (:file "side-by-side") (:file "stepping") (:file "replay") (:file "replay-file")
                (:file "store") (:file "journal") (:file "search")
                (:file "edits") (:file "edits-examples") (:file "edits-conditions")
                (:file "edits-effects") (:file "edits-outcomes") (:file "edits-check")
                (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
                (:file "explain-text")
                (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
-               (:file "boundary") (:file "shrink") (:file "brute-force")
+               (:file "boundary") (:file "shrink") (:file "review") (:file "brute-force")
                (:file "refine") (:file "refine-text")
                (:file "result-json")))
 
@@ -444,16 +446,22 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
                              (:file "regions") (:file "search") (:file "judgement")
-                             (:file "replay")
-                             (:file "table-top") (:file "tolerances") (:file "shrink")))
+                             (:file "explain") (:file "review")
+                             (:file "replay") (:file "search-phases") (:file "journal")
+                             (:file "table-top") (:file "tolerances") (:file "shrink")
+                             (:file "side-by-side") (:file "edits") (:file "refinement")
+                             (:file "brute-force")))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
                (:module "kitchen-plans" :pathname "plans/" :serial t
                 :components ((:file "bowl-and-spoon")))
                (:module "drawers" :pathname "plans/"
-                :components ((:file "looking-into-drawers")))
-               (:file "interface") (:file "theory-commands") (:file "readme")
+                :components ((:file "setting-the-table") (:file "looking-into-drawers")))
+               (:file "interface") (:file "interface-search")
+               (:module "report" :serial t
+                :components ((:file "results") (:file "pages") (:file "browser")))
+               (:file "theory-commands") (:file "readme") (:file "tutorial")
                (:file "documentation") (:file "compilation")
                (:file "load-plan") (:file "cram-compat"))
   :perform (asdf:test-op (operation system)
@@ -466,5 +474,6 @@ The environment variable CXX names another compiler than g++."))
   :serial t
   :components ((:file "package") (:file "steps") (:file "plans") (:file "evaluator")
                (:file "household") (:file "clingo") (:file "bounded") (:file "progression")
-               (:file "exploration") (:file "calibration") (:file "transport")
+               (:file "exploration") (:file "calibration") (:file "searching")
+               (:file "transport")
                (:file "benchmarks")))

@@ -1,5 +1,6 @@
-;;;; Looking into drawers: a spoon lies in one of three drawers, anywhere in it.  The robot opens one
-;;;; drawer after the other, tries to detect the spoon from several poses before it, and takes it.
+;;;; Looking into drawers: a spoon lies in one of three drawers, anywhere in it.  The robot opens
+;;;; one drawer after the other, tries to detect the spoon from several poses before it, and takes
+;;;; it.
 
 (in-package #:discrepancy-finder-user)
 

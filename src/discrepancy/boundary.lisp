@@ -3,8 +3,8 @@
 ;;;; From the smallest case each parameter alone is led to its ordinary value and to the ends of its
 ;;;; range.  If the sample there passes, the interval between it and the failing one is halved, on a
 ;;;; grid of round numbers, a thousandth of the range or finer.  The nearest boundary, in parts of
-;;;; the ranges, is kept; others are only looked for nearer than that.  If no parameter alone makes a
-;;;; difference, blind samples are drawn until one passes, and the way to that is halved.
+;;;; the ranges, is kept; others are only looked for nearer than that.  If no parameter alone makes
+;;;; a difference, blind samples are drawn until one passes, and the way to that is halved.
 
 (in-package #:discrepancy-finder.discrepancy)
 

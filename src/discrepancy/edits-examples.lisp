@@ -35,8 +35,19 @@ of the binding that the seen one can be."
                          (subtypep seen name))))
                  outcomes))
 
+(defun read-back-p (step)
+  "Return true if STEP was read from a journal, where a designator is a text."
+  (stringp (run-step-designator step)))
+
 (defun refreshed-step (domain step)
-  "Return STEP, of a run in some domain, with the outcomes that it can be in DOMAIN."
+  "Return STEP, of a run in some domain, with the outcomes that it can be in DOMAIN; of one that was
+read back nothing more is known."
+  (if (read-back-p step)
+      step
+      (step-with-outcomes domain step)))
+
+(defun step-with-outcomes (domain step)
+  "Return STEP with the outcomes that its designator can have in DOMAIN."
   (make-run-step :designator (run-step-designator step) :outcome (run-step-outcome step)
                  :candidates (outcomes-like (symbolic:action-outcomes domain
                                                                       (run-step-designator step))
@@ -65,7 +76,8 @@ of several events."
   "Return the list of the transitions of RUN, NIL for a step that teaches nothing."
   (loop for before = (state-table (run-initial-state run)) then (state-table (run-step-state step))
         for step in (run-steps run)
-        collect (step-transition domain before step)))
+        collect (unless (read-back-p step)
+                  (step-transition domain before step))))
 
 ;;; Lifting
 

@@ -22,7 +22,7 @@ one of FAILURES.  MODE is as for SYMBOLIC:REVISED-BINDING."
   (let ((class (requirement-class requirement)) (type (requirement-type requirement))
         (pattern (requirement-pattern requirement)) (formula (requirement-formula requirement))
         (failures (requirement-failures requirement)) (mode (requirement-mode requirement)))
-    (format nil "~(~a~) ~a (~a) ~a" class (ec:name-text type) (ec:formula-text pattern)
+    (format nil "~(~a~) ~a, event ~a, ~a" class (ec:name-text type) (ec:formula-text pattern)
             (cond ((eq mode :may-fail)
                    (format nil "may end in ~{~(~a~)~^ or ~} at any time" failures))
                   ((eq formula t) "succeeds whatever is the case")

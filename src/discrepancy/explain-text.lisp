@@ -154,11 +154,12 @@ observed-in-the-run-3)\"."
 ;;; JSON
 
 (defun ground-json (ground)
-  (destructuring-bind (kind name &optional other) ground
+  (destructuring-bind (kind name &optional other truth) ground
     (ecase kind
       (:axiom (json:object "axiom" (ec:name-text name)))
       (:inertia (json:object "inertia" (ec:name-text name)
-                             "through" (json-or-null (and other (ec:name-text other)))))
+                             "through" (json-or-null (and other (ec:name-text other)))
+                             "truth" (json-boolean truth)))
       (:binding (json:object "binding" (format nil "~a ~a" (ec:name-text name)
                                                (ec:name-text other)))))))
 

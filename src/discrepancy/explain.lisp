@@ -33,8 +33,8 @@ the action binding has no such outcome, of which the names are OUTCOMES."
       "Return the number of the step that an explanation is about, counted from 0."
       (documentation 'explanation-grounds 'function)
       "Return what the theory's side of a discrepancy rests on: a list of (:axiom name), (:inertia
-fluent event) with the names of a fluent and of the event through which it persists, and (:binding
-class type) of an action binding; all are keywords."
+fluent event truth) with the names of a fluent and of the event through which it keeps the value
+TRUTH, and (:binding class type) of an action binding; all names are keywords."
       (documentation 'explanation-influences 'function)
       "Return the list of the INFLUENCEs: which coordinates decide, and between which values."
       (documentation 'explanation-edits 'function)
@@ -53,7 +53,8 @@ class type) of an action binding; all are keywords."
   "Return what GROUND, an element of EXPLANATION-GROUNDS, is in words."
   (ecase (first ground)
     (:axiom (format nil "axiom ~a" (ec:name-text (second ground))))
-    (:inertia (format nil "inertia of ~a through ~a" (ec:name-text (second ground))
+    (:inertia (format nil "inertia of ~:[false~;true~] ~a through ~a" (fourth ground)
+                      (ec:name-text (second ground))
                       (if (third ground) (ec:name-text (third ground)) "a step without event")))
     (:binding (format nil "the binding of ~a ~a" (ec:name-text (second ground))
                       (ec:name-text (third ground))))))
@@ -61,8 +62,8 @@ class type) of an action binding; all are keywords."
 (defun claim-grounds (claim)
   "Return the grounds of CLAIM."
   (append (loop for name in (claim-axioms claim) collect (list :axiom name))
-          (loop for (atom nil event) in (claim-persistent claim)
-                collect (list :inertia (first atom) (first event)))))
+          (loop for (atom truth event) in (claim-persistent claim)
+                collect (list :inertia (first atom) (first event) truth))))
 
 (defun binding-ground (step)
   "Return the ground that the action binding for the designator of STEP is."

@@ -42,6 +42,10 @@ search, replay.")
    #:explanation-step #:explanation-grounds #:explanation-influences #:explanation-edits
    #:explanation-probes
    #:influence #:influence-parameters #:influence-failing #:influence-agreeing
+   ;; verdicts on plans, reviewed by the discrepancies of the model
+   #:review-plan #:review-of-verification #:review #:review-verification #:review-verdict
+   #:review-doubts #:review-text #:review-json
+   #:doubt #:doubt-file #:doubt-grounds #:doubt-status
    ;; search
    #:find-discrepancies #:search-result #:result-status #:result-reason #:result-discrepancy
    #:result-discrepancies #:result-traces #:result-simulations #:result-iterations #:result-seed
@@ -69,6 +73,8 @@ search, replay.")
    ;; replay
    #:save-discrepancy #:replay #:replay-result #:replay-status #:replay-verdict
    #:replay-discrepancy #:replay-text
+   #:replay-stopped #:replay-stopped-number #:replay-stopped-text #:replay-stopped-projection
+   #:finish-replay
    ;; shrinking
    #:shrink-discrepancy #:shrinking #:shrinking-discrepancy #:shrinking-original
    #:shrinking-boundary #:shrinking-runs #:shrinking-seconds #:shrinking-exhausted
@@ -95,4 +101,4 @@ search, replay.")
    ;; simulation without a trace
    #:simulate-blindly #:allowed-initial-states #:blind-result #:blind-result-simulations
    #:blind-result-rejected #:blind-result-kinds #:blind-result-discrepancy
-   #:blind-result-seconds))
+   #:blind-result-seconds #:discrepancy-summary))

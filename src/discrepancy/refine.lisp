@@ -127,8 +127,10 @@ signals."
                                                                    parameters))))
          (refining (make-refining :domain first-domain))
          (options (list* :constraint constraint :traces traces :compare compare
+                         :shrink nil :explain nil
                          (alexandria:remove-from-plist options :domain :parameters :edits :progress
-                                                       :constraint :traces :compare))))
+                                                       :constraint :traces :compare
+                                                       :shrink :explain))))
     (flet ((refinement (status results reason &rest arguments)
              (make-refinement :plans plans :initial-domain first-domain
                               :domain (refining-domain refining)

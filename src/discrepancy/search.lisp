@@ -199,8 +199,7 @@ SEARCH-FUNCTION returns where it has to end."
   "Search for a discrepancy between the theory and the scene of DOMAIN along PLAN (a symbol) and
 return a SEARCH-RESULT.
   DOMAIN          a domain or its name
-  CONSTRAINT      the name of the state constraint; NIL: the theory's only one; :ANY-ACTION: each
-                  performed action ends a trace
+  CONSTRAINT      the name of the state constraint; NIL: the theory's only one
   CONFIDENCE      in ]0, 1[, for the confidence RULE: :PAPER, :PAPER-SD, :PREDICTION,
                   :ZERO-FAILURE or :SOUND
   DELTA           in ]0, 1[, for the last two: the part of a trace's initial region that may be

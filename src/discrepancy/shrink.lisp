@@ -97,8 +97,8 @@ the nearest sample that passes.  COMMAND is as for DISCREPANCY-TEXT."
     (with-output-to-string (stream)
       (format stream "shrunk in ~d run~:p~@[, stopped ~a~]~%" (shrinking-runs shrinking)
               (shrinking-exhausted shrinking))
-      (format stream "  ~d of ~d step~:p are left~%"
-              (step-count discrepancy) (step-count original))
+      (format stream "  ~d of ~d step~:p ~:[are~;is~] left~%"
+              (step-count discrepancy) (step-count original) (= 1 (step-count discrepancy)))
       (format stream "  ~d of ~d drawn values ~:[are~;is~] ordinary~@[; what matters: ~a~]~%"
               ordinary drawn (= ordinary 1)
               (and (< ordinary drawn) (mattering-text discrepancy)))
@@ -109,15 +109,19 @@ the nearest sample that passes.  COMMAND is as for DISCREPANCY-TEXT."
       (write-string (discrepancy-text discrepancy :command command) stream))))
 
 (defun shrinking-json (shrinking)
-  "Return the JSON object of SHRINKING: the smaller discrepancy, as in its replay file, the boundary
-or null, and what it took."
+  "Return the JSON object of SHRINKING: the smaller discrepancy, as in its replay file, how many of
+the steps are left, the values that matter, the boundary or null, and what it took."
   (let ((boundary (shrinking-boundary shrinking)))
     (json:object
      "discrepancy" (discrepancy-json (shrinking-discrepancy shrinking))
      "steps" (vector (step-count (shrinking-original shrinking))
                      (step-count (shrinking-discrepancy shrinking)))
-     "left out" (map 'vector #'ec:name-text
+     "left-out" (map 'vector #'ec:name-text
                      (discrepancy-left-out (shrinking-discrepancy shrinking)))
+     "mattering" (loop with sample = (discrepancy-sample (shrinking-discrepancy shrinking))
+                       for number in (mattering-numbers (shrinking-discrepancy shrinking))
+                       collect (cons (parameter-name (nth number (sample-parameters sample)))
+                                     (aref (sample-values sample) number)))
      "boundary" (if boundary
                     (map 'vector
                          (lambda (change)

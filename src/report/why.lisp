@@ -20,8 +20,10 @@
                               (key explanation "step")))
               ,(sentences-node (key ending "reasons"))))
       ,(loop for claim across (key explanation "claims")
-             collect `((:p () ,(format nil "The theory ~:[says~;would have said~] that ~a:"
-                                       ending (claim-fluents-text claim)))
+             collect `((:p () ,(format nil "The theory ~:[says~;would have said~] that ~a after ~
+                                            step ~d:"
+                                       ending (claim-fluents-text claim)
+                                       (key explanation "step")))
                        ,(sentences-node (key claim "reasons")))))))
 
 (defun as-sentence (text)

@@ -49,6 +49,8 @@
    #:covered-form #:covered-form-form #:covered-form-position #:covered-form-state
    #:never-taken-outcomes #:never-exercised-axioms #:print-coverage #:write-coverage-html
    #:coverage-not-recorded
+   ;; what an outcome rests on
+   #:exploration-grounds #:trace-grounds
    ;; conditions
    #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
    #:action-problem #:domain-not-found #:invalid-trace #:invalid-trace-reason

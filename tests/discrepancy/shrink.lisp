@@ -64,7 +64,8 @@
            (smaller (df:shrinking-discrepancy shrinking)))
       (is (null (discrepancy:shrinking-exhausted shrinking)))
       (is-true (discrepancy:discrepancy-confirmed-p smaller))
-      (is (equal '(:pick-up :manipulation-pose-unreachable) (discrepancy:discrepancy-kind original)))
+      (is (equal '(:pick-up :manipulation-pose-unreachable)
+                 (discrepancy:discrepancy-kind original)))
       (is (equal (discrepancy:discrepancy-kind original) (discrepancy:discrepancy-kind smaller)))
       (is (equal '("(a motion (type going) (pose 1.500 0.000 0.000))"
                    "(an action (type picking-up) (object (an object (type box))))")
@@ -171,7 +172,8 @@
         (is (equal (discrepancy:discrepancy-left-out smaller)
                    (discrepancy:discrepancy-left-out again)))
         (let ((shrinking (df:shrink-discrepancy again)))
-          (is (equal (shrunk-steps smaller) (shrunk-steps (df:shrinking-discrepancy shrinking)))))))))
+          (is (equal (shrunk-steps smaller)
+                     (shrunk-steps (df:shrinking-discrepancy shrinking)))))))))
 
 (test files-of-the-first-format-are-read
   (with-stored-discrepancy (file discrepancy)

@@ -1,4 +1,5 @@
-;;;; The third plan of the paper's evaluation: the theory's regions are too coarse for sight and reach.
+;;;; The third plan of the paper's evaluation: the theory's regions are too coarse for sight and
+;;;; reach.
 
 (in-package #:discrepancy-finder.tests)
 

@@ -133,6 +133,11 @@ release, and which are causes of trajectories."
 
 (defun looks-back-p (outline)
   "Return true if OUTLINE looks at timepoints before that of the latest state."
+  (or (outline-dated-p outline) (axioms-look-back-p outline)))
+
+(defun axioms-look-back-p (outline)
+  "Return true if OUTLINE looks at timepoints before that of the latest state, dated instances
+aside."
   (flet ((definition-looks-back-p (definition)
            (loop for supports in (definition-alternatives definition)
                    thereis (loop for support in supports
@@ -142,8 +147,7 @@ release, and which are causes of trajectories."
                                      (influence-terminates influence)
                                      (influence-releases influence))
                    thereis (some #'minusp (mapcar #'car guards)))))
-    (and (or (outline-dated-p outline)
-             (outline-causes outline)
+    (and (or (outline-causes outline)
              (find-if (lambda (demand) (> (demand-last demand) 1)) (outline-other-demands outline))
              (loop for table in (list (outline-events outline) (outline-predicates outline))
                      thereis (loop for definition being the hash-values of table

@@ -6,17 +6,28 @@
 
 (in-package #:discrepancy-finder.event-calculus)
 
+(defun timeless-clause-p (clause)
+  "Return true if CLAUSE, (axiom kind condition head), speaks of no timepoint."
+  (labels ((timeless-p (form)
+             (or (atom form)
+                 (and (not (member (first form)
+                                   '(:holds-at :happens :released-at :initiates :terminates
+                                     :releases :trajectory :anti-trajectory :value-at :clipped
+                                     :declipped :stopped-in :started-in)))
+                      (every #'timeless-p (rest form))))))
+    (destructuring-bind (axiom kind &rest forms) clause
+      (declare (ignore axiom kind))
+      (every #'timeless-p forms))))
+
 (defun self-contained-p (state)
   "Return true if what the theory says of the time after STATE depends on the truth values of its
 fluents alone: on no earlier timepoints, no numbers, no fluents that are or may be released but are
 inertial as a rule."
   (let* ((outline (state-outline state))
          (ground (outline-ground outline)))
-    (and (not (outline-memory-p outline))
+    (and (not (axioms-look-back-p outline))
          (not (outline-late-p outline))
-         (not (outline-dated-p outline))
-         (null (outline-causes outline))
-         (null (ground-theory-absolute-clauses ground))
+         (every #'timeless-clause-p (ground-theory-absolute-clauses ground))
          (zerop (length (ground-theory-numerics ground)))
          (null (state-pending state))
          (loop for released across (state-released state)

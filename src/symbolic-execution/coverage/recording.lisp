@@ -1,5 +1,4 @@
 ;;;; Recording which forms of plans are evaluated, which ways their conditions take, which outcomes
-;;;;
 ;;;; steps have and which axioms these make use of.
 ;;;;
 ;;;; A RECORDER belongs to an exploration that records its coverage.  While it is in force, forms
@@ -20,11 +19,12 @@ condition in it was true, and whether it was false.  NUMBER is greater than that
 (defstruct (recorder (:copier nil))
   "RECORDS are those of forms, by the form.  PLANS are the interpreted functions of plans that note
 what they do.  OUTCOMES are (class type . number) of the outcomes that were taken, AXIOMS the axioms
-that were made use of."
+that were made use of, PERSISTENCES has what persisted by inertia as its keys; see grounds.lisp."
   (records (make-hash-table :test 'eq :synchronized t) :type hash-table :read-only t)
   (plans (make-hash-table :test 'eq :synchronized t) :type hash-table :read-only t)
   (outcomes '() :type list)
-  (axioms '() :type list))
+  (axioms '() :type list)
+  (persistences (make-hash-table :test 'equal) :type hash-table :read-only t))
 
 (defvar *recorder* nil
   "The RECORDER in force, or NIL.")
@@ -90,13 +90,37 @@ of the form around it which one runs."
   (dolist (axiom axioms)
     (pushnew axiom (recorder-axioms recorder))))
 
+(defun persistences (state next)
+  "Return a list of (:inertia fluent event truth) for the names of fluents that have the same truth
+value, T or NIL, in STATE and in NEXT, and those of the events in between (NIL if nothing happened);
+a fluent that is open in both counts for both values."
+  (let ((events (or (loop for (event . proposition) in (ec:state-happenings next)
+                          when proposition collect (first event))
+                    '(nil)))
+        (entries '()))
+    (loop for atom across (ec:ground-theory-fluents (ec:state-ground state))
+          for before across (ec:state-values state)
+          for after across (ec:state-values next)
+          do (dolist (truth '(t nil))
+               (when (and (or (eq before truth) (z3:term-p before))
+                          (or (eq after truth) (z3:term-p after)))
+                 (dolist (event events)
+                   (pushnew (list :inertia (first atom) event truth) entries :test #'equal)))))
+    entries))
+
+(defun note-persistences (recorder state next)
+  "Note in RECORDER what persists from STATE to NEXT."
+  (dolist (entry (persistences state next))
+    (setf (gethash entry (recorder-persistences recorder)) t)))
+
 (defun note-step-taken (recorder state outcome next)
   "Note in RECORDER that OUTCOME led from STATE to NEXT."
   (let ((binding (outcome-binding outcome)))
     (pushnew (list* (action-binding-class binding) (action-binding-type binding)
                     (outcome-number outcome))
              (recorder-outcomes recorder) :test #'equal)
-    (note-axioms recorder (ec:axioms-used state next))))
+    (note-axioms recorder (ec:axioms-used state next))
+    (note-persistences recorder state next)))
 
 (defun note-considered (recorder ground outcomes)
   "Note in RECORDER that the OUTCOMES of an action were considered."
