@@ -6,5 +6,4 @@
   "The domain kitchen with two items."
   (:extends "domain.lisp")
   (:theory "bowl-and-spoon-theory.lisp")
-  (:items bowl spoon)
-  (:region table (box (x 0.1 0.9) (y -0.8 0.8) (z 0.6 0.89))))
+  (:items bowl spoon))
