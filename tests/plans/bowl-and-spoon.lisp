@@ -1,5 +1,5 @@
-;;;; Bowl and spoon: the bowl is lost on the way or an open drawer blocks the way, as physics has it;
-;;;; the theory that takes both into account allows whatever happens.
+;;;; Bowl and spoon: the bowl is lost on the way or an open drawer blocks the way, as physics has
+;;;; it; the theory that takes both into account allows whatever happens.
 
 (in-package #:discrepancy-finder.tests)
 
@@ -86,6 +86,14 @@ spoon in the middle drawer."
                                                          (first (symbolic:step-event step))))
                                           :key (lambda (step)
                                                  (second (symbolic:step-event step))))))))))
+
+(test nothing-is-wrong-in-the-theory-that-has-learnt
+  "What is open at first is where the spoon is."
+  (let ((findings (df:check-theory (symbolic:action-theory-theory
+                                    (bowl-and-spoon :bowl-and-spoon-closing))
+                                   :horizon 11)))
+    (is (= 1 (length findings)))
+    (is (search "(in spoon drawer-1)" (df:finding-text (first findings))))))
 
 ;;; What the world has to say
 
