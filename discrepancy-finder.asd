@@ -455,6 +455,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
+               (:module "kitchen-plans" :pathname "plans/" :serial t
+                :components ((:file "bowl-and-spoon")))
                (:module "drawers" :pathname "plans/"
                 :components ((:file "setting-the-table") (:file "looking-into-drawers")))
                (:file "interface") (:file "interface-search")
