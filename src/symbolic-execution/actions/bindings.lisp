@@ -30,6 +30,11 @@ RESULT-FORM, PROPERTIES the keys of its further arguments."
   (properties '() :type list :read-only t)
   (describe-outcomes #'identity :type function :read-only t))
 
+(setf (documentation 'action-binding-class 'function)
+      "Return the class of the designators that an action binding is for: :MOTION or :ACTION."
+      (documentation 'action-binding-type 'function)
+      "Return the type of the designators that an action binding is for, a keyword.")
+
 (defmethod print-object ((binding action-binding) stream)
   (print-unreadable-object (binding stream :type t)
     (write-string (binding-text binding) stream)))
