@@ -9,8 +9,8 @@ the processor time of a sample (ms) and the megabytes of the Lisp heap after a c
     (df:find-discrepancies
      'discrepancy-finder-user::move-the-box
      :domain :two-regions :parameters '(:reach 0.8d0) :rule :sound :delta 1d-5 :budget samples
-     :progress (lambda (&key simulations &allow-other-keys)
-                 (when (zerop (mod simulations block-size))
+     :progress (lambda (&key phase simulations &allow-other-keys)
+                 (when (and (eq phase :generate) (zerop (mod simulations block-size)))
                    (let ((cost (/ (- (foreign:processor-seconds) start) block-size)))
                      (sb-ext:gc :full t)
                      (push (cons (* 1d3 cost) (* 1d-6 (sb-kernel:dynamic-usage))) costs)
