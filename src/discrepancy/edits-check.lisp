@@ -109,6 +109,26 @@ says more."
           do (cond ((< one two) (return t))
                    ((> one two) (return nil))))))
 
+(defun divergence-of-effects (domain run context)
+  "Return the first divergence of RUN by the theory of DOMAIN without its sentences about states, or
+NIL: where an effect leads to a state that these forbid, it is seen which."
+  (first-divergence (edited-domain domain (make-edit
+                                           :kind :weaken
+                                           :replaced (mapcar #'ec:axiom-name
+                                                             (ec:state-axioms
+                                                              (symbolic:action-theory-theory
+                                                               domain)))))
+                    run context))
+
+(defun edits-of-effects (domain transitions transition run divergence context)
+  "Return the parts of edits for DIVERGENCE of RUN, that the success of TRANSITION is forbidden: if
+the reason is a state that its effects would lead to."
+  (let ((effects (and (transition-succeeded-p transition)
+                      (divergence-of-effects domain run context))))
+    (when (and effects (eq (divergence-kind effects) :state)
+               (= (divergence-step effects) (divergence-step divergence)))
+      (state-edits domain transitions transition effects))))
+
 (defun edit-parts-for (domain transition run runs agreed divergence context)
   "Return the parts (kind sentences replaced requirements ranges) of edits for DIVERGENCE of RUN at
 TRANSITION, best first; RUNS are those to learn from, and AGREED tells how far the theory agrees
@@ -116,7 +136,8 @@ with them."
   (let ((transitions (loop for run in runs append (remove nil (run-transitions domain run)))))
     (append (region-edits domain transition divergence run runs agreed)
             (if (eq (divergence-kind divergence) :outcome)
-                (outcome-edits domain transitions transition context)
+                (append (edits-of-effects domain transitions transition run divergence context)
+                        (outcome-edits domain transitions transition context))
                 (state-edits domain transitions transition divergence)))))
 
 (defun edits-for-run (domain run runs context)

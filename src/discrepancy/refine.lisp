@@ -117,14 +117,14 @@ unless there is none."
 
 (defun refine-theory (plans &rest options &key domain parameters (constraint :any-action)
                                             (traces :every-state) (compare :every-step)
-                                            (edits 50) progress &allow-other-keys)
+                                            (execution :plan) (edits 50) progress &allow-other-keys)
   "Refine the theory of DOMAIN (a domain or its name) until no discrepancy is found along PLANS, a
 plan's name or a list of them, and return the REFINEMENT.  PARAMETERS are scene parameters that
-differ from the scene's.  CONSTRAINT, TRACES and COMPARE and all other options are those of
+differ from the scene's.  CONSTRAINT, TRACES, COMPARE, EXECUTION and all other options are those of
 FIND-DISCREPANCIES; by default each action of a plan is looked at, in all initial states, after
-every step.  At most EDITS edits are applied.  PROGRESS is a function of each REFINEMENT-STEP.
-Nothing is registered: the domain in the end is REFINEMENT-DOMAIN.  Signals what FIND-DISCREPANCIES
-signals."
+every step, and plans are run to their ends, beyond what the theory allows.  At most EDITS edits are
+applied.  PROGRESS is a function of each REFINEMENT-STEP.  Nothing is registered: the domain in the
+end is REFINEMENT-DOMAIN.  Signals what FIND-DISCREPANCIES signals."
   (check-argument 'edits edits (typep edits '(integer 0)) "a natural number")
   (let* ((plans (alexandria:ensure-list plans))
          (first-domain (let ((domain (ensure-domain domain)))
@@ -133,9 +133,9 @@ signals."
                                                                    parameters))))
          (refining (make-refining :domain first-domain))
          (options (list* :constraint constraint :traces traces :compare compare
-                         :shrink nil :explain nil
+                         :execution execution :shrink nil :explain nil
                          (alexandria:remove-from-plist options :domain :parameters :edits :progress
-                                                       :constraint :traces :compare
+                                                       :constraint :traces :compare :execution
                                                        :shrink :explain))))
     (flet ((refinement (status results reason &rest arguments)
              (make-refinement :plans plans :initial-domain first-domain

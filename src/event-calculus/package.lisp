@@ -19,7 +19,7 @@ them and why, and what they say of a state after known events.")
    ;; pieces of a run: what a state alone decides
    #:about-the-beginning-p #:self-contained-p #:formula-form
    ;; revised theories
-   #:revised-theory #:effect-axioms #:event-axioms
+   #:revised-theory #:effect-axioms #:event-axioms #:state-axioms
    ;; names and atoms
    #:name-keyword #:name-text #:atom-text #:text-atom
    ;; formulas

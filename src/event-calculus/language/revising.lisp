@@ -57,3 +57,16 @@ may happen."
                    (and (names-event-p (axiom-formula axiom) event)
                         (eq :sentence (first (first (axiom-clauses axiom theory))))))
                  (theory-axioms theory)))
+
+(defun state-axioms (theory)
+  "Return the list of the sentences of THEORY that say what states there are: no effects, nothing of
+events, nothing of the beginning."
+  (labels ((names-p (form predicate)
+             (and (consp form)
+                  (or (eq (first form) predicate)
+                      (some (lambda (part) (names-p part predicate)) (rest form))))))
+    (remove-if-not (lambda (axiom)
+                     (and (eq :sentence (first (first (axiom-clauses axiom theory))))
+                          (not (names-p (axiom-formula axiom) :happens))
+                          (names-p (axiom-formula axiom) :holds-at)))
+                   (theory-axioms theory))))
