@@ -93,11 +93,14 @@ ordinary value."
 
 (defun round-values (parameter value decimals)
   "Return the possible values of PARAMETER with so many DECIMALS next to VALUE, the nearest one
-first."
-  (let* ((step (expt 10 (- decimals)))
+first, but none that is farther away than a tenth of the range."
+  (let* ((near (/ (- (parameter-max parameter) (parameter-min parameter)) 10))
+         (step (expt 10 (- decimals)))
          (nearest (rounded value decimals))
          (other (rounded (if (> nearest value) (- nearest step) (+ nearest step)) decimals)))
-    (remove-if-not (lambda (value) (possible-p parameter value)) (list nearest other))))
+    (remove-if-not (lambda (round)
+                     (and (possible-p parameter round) (<= (abs (- round value)) near)))
+                   (list nearest other))))
 
 (defun round-coordinate (shrinker number)
   "Round the value of the parameter NUMBER of the best case as far as the discrepancy stays."

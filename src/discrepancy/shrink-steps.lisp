@@ -4,9 +4,9 @@
 ;;;; performed without the plan, and those that the discrepancy does not need are left out.  The
 ;;;; theory, which costs nothing, is asked first: it says which actions are possible without others,
 ;;;; and which the divergent fluents need.  Simulation has the last word: the discrepancy must stay,
-;;;; and samples that passed with all actions, the WITNESSES, must still pass, or else the discrepancy
-;;;; might be another one, which the missing actions have prevented.  Items that no action mentions
-;;;; any more are left out of the world; what the theory says of them is then unobserved.
+;;;; and samples that passed with all actions, the WITNESSES, must still pass, or else there might
+;;;; be another cause, which the missing actions have prevented.  Items that no action mentions any
+;;;; more are left out of the world; what the theory says of them is then unobserved.
 
 (in-package #:discrepancy-finder.discrepancy)
 

@@ -5,42 +5,24 @@
 (def-suite side-by-side :in all)
 (in-suite side-by-side)
 
-(defparameter *example-steps*
-  "  initially
-                      theory  simulation
-       (robot-in r1)  true    true
-       (box-in r2)    true    true
-  1. (a motion (type going) (pose 1.500 0.000 0.000))
-     theory:     (move r2), success
-     simulation: success
-                      theory  simulation
-       (robot-in r1)  false   false
-       (robot-in r2)  true    true
-  2. (an action (type picking-up) (object (an object (type box))))
-     theory:     (pick-up), success
-     simulation: manipulation-pose-unreachable: the box is 0.504 m from the shoulder, which ~
-reaches 0.500 m; THE THEORY FORBIDS THIS OUTCOME
-                      theory  simulation
-     * (holding-box)  true    false
-  3. (a motion (type going) (pose 0.500 0.000 0.000))
-     theory:     (move r1), success
-     simulation: not performed
-                      theory  simulation
-       (robot-in r1)  true    -
-       (robot-in r2)  false   -
-       (box-in r1)    true    -
-       (box-in r2)    false   -
-  4. (an action (type placing) (object (an object (type box))) (target (a location (pose 0.500 ~
-0.400 0.460))))
-     theory:     (put-down r1), success
-     simulation: not performed
-                      theory  simulation
-       (holding-box)  false   -
-")
+(defun documented (command)
+  "Return the output of COMMAND that docs/shrinking.md shows."
+  (format nil "~{~a~%~}" (rest (text-block "docs/shrinking.md"
+                                           (format nil "$ ./discrepancy-finder ~a" command)))))
+
+(test the-documentation-shows-a-replay-and-what-shrinking-leaves
+  (let* ((file (root-file "discrepancies/move-the-box-1-4b1adfe8.json"))
+         (result (df:replay file))
+         (shrunk (documented "shrink")))
+    (is (string= (documented "replay") (df:replay-text result)))
+    (is (eql 0 (search (subseq shrunk 0 (search "  ..." shrunk))
+                       (df:shrinking-text
+                        (df:shrink-discrepancy (discrepancy:replay-discrepancy result))))))))
 
 (defun example-steps ()
   "Return what a replay of the example's discrepancy of seed 1 tells of its steps."
-  (format nil *example-steps*))
+  (let ((text (documented "replay")))
+    (subseq text (search "  initially" text) (search "  theory and simulation part" text))))
 
 (test a-replay-is-told-side-by-side
   (with-stored-discrepancy (file discrepancy)
