@@ -51,7 +51,8 @@ cannot be done there is a warning: what was found is worth more than the file."
            (let ((part (json:get-key object key nil)))
              (and (listp part) (json:get-key part "name" nil)))))
     (and object
-         (null (json:get-key object "actions" nil)) ; one that was shrunk: its original is here, too
+         ;; One that was shrunk has actions; its original is here, too.
+         (equalp #() (json:get-key object "actions" #()))
          (equal (name "plan") (ec:name-text (plan:plan-name (search-plan search))))
          (equal (name "domain")
                 (ec:name-text (symbolic:action-theory-name (search-domain search))))
