@@ -128,6 +128,7 @@ by pair."
                                                 :domain :two-regions)))
   (format stream "symbolic execution        ~,2f ms for Example 1~%"
           (* 1d3 (median-seconds (lambda () (example-trace)) :rounds 21)))
+  (print-search-benchmarks stream)
   (print-transport-benchmarks stream)
   (print-plan-benchmarks stream)
   (print-evaluator-benchmarks stream)

@@ -16,14 +16,12 @@
       (perform (an action (type placing) (object ?box)
                    (target (a location (pose ?target-pose))))))))
 
-(def-top-level-cram-function two-regions-in-vain ()
-  "Reach for the box from the far end of the other region, place what is not held, pick up what is
-held already, and place the box from afar."
+(def-cram-function try-everything (?far-left ?far-right)
+  "Reach for the box from ?FAR-LEFT, place what is not held, pick up what is held already, place the
+box from afar, and reach for it from ?FAR-RIGHT."
   (let ((?box (an object (type box)))
-        (?far-left (make-pose 0.2 0 0))
         (?left (make-pose 0.5 0 0))
-        (?right (make-pose 1.5 0 0))
-        (?far-right (make-pose 1.8 0 0)))
+        (?right (make-pose 1.5 0 0)))
     (perform (a motion (type going) (pose ?far-left)))
     (pick-up-if-possible ?box)
     (place-if-possible ?box 0.5)
@@ -39,3 +37,11 @@ held already, and place the box from afar."
     (perform (a motion (type going) (pose ?far-right)))
     (pick-up-if-possible ?box)
     (place-if-possible ?box 1.5)))
+
+(def-top-level-cram-function two-regions-in-vain ()
+  "Try everything; reach for the box from so far away that nobody could."
+  (try-everything (make-pose 0.2 0 0) (make-pose 1.8 0 0)))
+
+(def-top-level-cram-function two-regions-from-the-middle ()
+  "Try everything from the middle of the regions."
+  (try-everything (make-pose 0.5 0 0) (make-pose 1.5 0 0)))

@@ -19,5 +19,6 @@
                     (#:projection #:discrepancy-finder.projection)
                     (#:statistics #:discrepancy-finder.statistics)
                     (#:discrepancy #:discrepancy-finder.discrepancy)
+                    (#:report #:discrepancy-finder.report)
                     (#:df #:discrepancy-finder))
   (:export #:run-all-tests #:report-all-tests #:tests-failed #:*long*))

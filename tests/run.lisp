@@ -8,6 +8,9 @@
 (defvar *long* nil
   "True if the tests that take long are to be run, too.")
 
+(defvar *browser* nil
+  "True if the tests that look at reports in a browser are to be run, too.")
+
 (define-condition tests-failed (error)
   ((passed :initarg :passed :reader tests-failed-passed)
    (failed :initarg :failed :reader tests-failed-failed))
@@ -34,10 +37,11 @@ A suite without any check counts as one failure."
         passed
         (error 'tests-failed :passed passed :failed failed))))
 
-(defun report-all-tests (&key long)
-  "Run all suites, with the long tests if LONG is true, and print the counts.  Return true if no
-check failed."
-  (let ((*long* (and long t)))
+(defun report-all-tests (&key long browser)
+  "Run all suites, with the long tests if LONG is true, with those in a browser if BROWSER is, and
+print the counts.  Return true if no check failed."
+  (let ((*long* (and long t))
+        (*browser* (and browser t)))
     (multiple-value-bind (passed failed) (run-and-count 'all *standard-output*)
       (format t "~&~d passed, ~d failed~%" passed failed)
       (zerop failed))))

@@ -1,5 +1,5 @@
-;;;; The theory of bowl and spoon after two discrepancies: an object can be lost when it is lifted or
-;;;; on the way, and an open drawer blocks the way.
+;;;; The theory of bowl and spoon after two discrepancies: an object can be lost when it is lifted
+;;;; or on the way, and an open drawer blocks the way.
 ;;;;
 ;;;; Whether something is lost is open: the fluent `slips` is in no way determined, at no timepoint,
 ;;;; and effects depend on it.  So an event has one effect or another, as the world has it.  Where
@@ -11,6 +11,7 @@
   "What a modeller writes who has seen an object lost, and the robot stopped by a drawer."
   (:extends "bowl-and-spoon-theory.lisp")
   (:without pick-up-holds pick-up-lifts-off pick-up-takes-out)
+  (:predicates (blocks drawer place))
   (:non-inertial-fluents
    ;; what nobody knows beforehand
    (slips item) (lands-on item surface) (lands-in item drawer))
@@ -65,6 +66,9 @@
                   (holds-at (lands-in ?item ?drawer) ?time))
              (initiates (navigate ?place) (in ?item ?drawer) ?time)))
 
-   ;; An open drawer blocks the way.
-   (navigate-needs-closed-drawers
-    (implies (happens (navigate ?place) ?time) (not (holds-at (open ?drawer) ?time))))))
+   ;; Open, the middle drawer is where the robot would stand before the workspace.
+   (middle-drawer-blocks-the-workspace
+    (iff (blocks ?drawer ?place) (and (= ?drawer drawer-2) (= ?place before-workspace))))
+   (navigate-needs-a-place-that-no-drawer-blocks
+    (implies (and (happens (navigate ?place) ?time) (blocks ?drawer ?place))
+             (not (holds-at (open ?drawer) ?time))))))

@@ -11,5 +11,7 @@
 (define-action (motion going) (pose)
   (:domain bowl-and-spoon-closing)
   (:event (navigate (region-of pose 'place)))
-  (:requires (and (parked left) (parked right) (forall (?drawer) (not (open ?drawer)))))
+  (:requires (and (parked left) (parked right)
+                  (forall (?drawer)
+                    (implies (blocks ?drawer (region-of pose 'place)) (not (open ?drawer))))))
   (:failure navigation-low-level-failure))

@@ -6,4 +6,7 @@
   "The domain kitchen with two items."
   (:extends "domain.lisp")
   (:theory "bowl-and-spoon-theory.lisp")
-  (:items bowl spoon))
+  (:items bowl spoon)
+  ;; There is nothing below the workspace's top that could be taken for being on it; room for what
+  ;; regression predicts of heights.
+  (:region workspace (box (x -2.5 -1.9) (y -1 1) (z 0.7 0.98))))

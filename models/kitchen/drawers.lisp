@@ -1,5 +1,5 @@
-;;;; The domain of plans that look into drawers: the kitchen with nothing but the spoon, which may lie
-;;;; anywhere in its drawer, and with wider places before the drawers.
+;;;; The domain of plans that look into drawers: the kitchen with nothing but the spoon, which may
+;;;; lie anywhere in its drawer, and with wider places before the drawers.
 
 (in-package #:discrepancy-finder-user)
 

@@ -13,7 +13,10 @@
    (regions :initarg :regions :reader domain-regions :type list
             :documentation "The regions, in order.")
    (observers :initarg :observers :reader domain-observers :type list
-              :documentation "Placements, joint ranges, attachments and computed observers.")
+              :documentation "Placements, joint and coordinate ranges, attachments, computed
+observers.")
+   (states :initform (make-hash-table :test #'equal :synchronized t) :reader domain-states
+           :documentation "The discrete states that were seen, by the bits of their truth values.")
    (file :initarg :file :initform nil :reader domain-file
          :documentation "The file that defines the domain, as a string, or NIL.")
    (extended-files :initarg :extended-files :initform '() :reader domain-extended-files
@@ -61,6 +64,7 @@ changed.  Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
   (typecase observer
     (placement (member (placement-body observer) items))
     (attachment (member (attachment-item observer) items))
+    (coordinate-range (member (coordinate-range-body observer) items))
     (computed (intersection (computed-arguments observer) items))))
 
 (defun domain-without-items (domain items)
@@ -76,10 +80,19 @@ that speak of them; what the theory says of them is not observed."
                                               (domain-observers domain))))
       domain))
 
+(defun shared-state (domain state)
+  "Return a list like STATE that is the same one whenever this state of DOMAIN is seen: a search
+keeps thousands of them, of which few differ."
+  (let ((bits (map 'simple-bit-vector (lambda (entry) (if (cdr entry) 1 0)) state))
+        (states (domain-states domain)))
+    (or (gethash bits states)
+        (setf (gethash bits states) state))))
+
 (defun discrete-state (domain projection)
   "Return the discrete state of PROJECTION: a list of (atom . truth) for every fluent of DOMAIN that
 can be observed."
-  (loop for observer in (domain-observers domain) append (observe observer projection)))
+  (shared-state domain (loop for observer in (domain-observers domain)
+                             append (observe observer projection))))
 
 (defun observed-fluents (state)
   "Return the list of the atoms that are true in STATE, a list of (atom . truth)."

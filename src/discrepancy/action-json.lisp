@@ -57,7 +57,8 @@
       (refuse-action "~s is no name that the plan or the domain uses" text)))
 
 (defun pose-from-json (numbers)
-  (unless (and (typep numbers '(simple-vector 7)) (every (lambda (x) (typep x 'double-float)) numbers))
+  (unless (and (typep numbers '(simple-vector 7))
+               (every (lambda (number) (typep number 'double-float)) numbers))
     (refuse-action "a pose has seven numbers with a decimal point"))
   (components-pose (coerce numbers 'list)))
 

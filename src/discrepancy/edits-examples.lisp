@@ -8,8 +8,8 @@
 
 (defstruct (transition (:copier nil))
   "What was seen of one step: the states BEFORE and AFTER as tables of truth values, EVENT (ground,
-or NIL), the event SUCCESS that the binding of CLASS and TYPE has on success, and the OUTCOMES (names)
-of the binding that the seen one can be."
+or NIL), the event SUCCESS that the binding of CLASS and TYPE has on success, and the OUTCOMES
+(names) of the binding that the seen one can be."
   (class nil :type keyword :read-only t)
   (type nil :type keyword :read-only t)
   (before nil :type hash-table :read-only t)
@@ -35,8 +35,19 @@ of the binding that the seen one can be."
                          (subtypep seen name))))
                  outcomes))
 
+(defun read-back-p (step)
+  "Return true if STEP was read from a journal, where a designator is a text."
+  (stringp (run-step-designator step)))
+
 (defun refreshed-step (domain step)
-  "Return STEP, of a run in some domain, with the outcomes that it can be in DOMAIN."
+  "Return STEP, of a run in some domain, with the outcomes that it can be in DOMAIN; of one that was
+read back nothing more is known."
+  (if (read-back-p step)
+      step
+      (step-with-outcomes domain step)))
+
+(defun step-with-outcomes (domain step)
+  "Return STEP with the outcomes that its designator can have in DOMAIN."
   (make-run-step :designator (run-step-designator step) :outcome (run-step-outcome step)
                  :candidates (outcomes-like (symbolic:action-outcomes domain
                                                                       (run-step-designator step))
@@ -65,7 +76,8 @@ of several events."
   "Return the list of the transitions of RUN, NIL for a step that teaches nothing."
   (loop for before = (state-table (run-initial-state run)) then (state-table (run-step-state step))
         for step in (run-steps run)
-        collect (step-transition domain before step)))
+        collect (unless (read-back-p step)
+                  (step-transition domain before step))))
 
 ;;; Lifting
 
@@ -164,7 +176,8 @@ binds, in the observed state TABLE."
                              (cdr (assoc (second parts) bindings)))))
               (:exists
                (let ((variable (first (first parts))))
-                 (decided (loop for element in (ec:sort-elements theory (sort-of-variable theory variable))
+                 (decided (loop for element in (ec:sort-elements
+                                                theory (sort-of-variable theory variable))
                                 collect (truth (second parts) (acons variable element bindings)))
                           t)))
               (t (multiple-value-bind (truth known)

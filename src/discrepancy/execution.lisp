@@ -49,7 +49,9 @@ is :TRACE-DONE, :LEFT-TRACE, :FINISHED, :TOO-MANY-STEPS or the class of an unhan
   (hash 0 :type (unsigned-byte 64) :read-only t)
   (seconds 0d0 :type double-float :read-only t))
 
-(setf (documentation 'run-validity 'function)
+(setf (documentation 'run-sample 'function)
+      "Return the SAMPLE from which a run begins."
+      (documentation 'run-validity 'function)
       "Return :VALID, or a sentence that says why the sample of a run is not valid."
       (documentation 'run-ending 'function)
       "Return how a run ended: :TRACE-DONE, :LEFT-TRACE, :FINISHED, :TOO-MANY-STEPS, :NOT-RUN or
@@ -90,7 +92,9 @@ the class of an unhandled failure."
            :documentation "Why the run is being left, or NIL.")
    (fatal :initform nil :accessor monitor-fatal
           :documentation "The error that ends the run, or NIL.")
-   (steps :initform '() :accessor monitor-steps :documentation "Newest first."))
+   (steps :initform '() :accessor monitor-steps :documentation "Newest first.")
+   (on-step :initarg :on-step :initform nil :reader monitor-on-step
+            :documentation "A function of the list of the steps, called after each, or NIL."))
   (:documentation "The executive of a recorded run."))
 
 (defun leave-run (monitor ending)
@@ -116,6 +120,8 @@ the class of an unhandled failure."
 (defun note-step (monitor step)
   "Record STEP and leave the run if there is nothing more to compare with."
   (push step (monitor-steps monitor))
+  (when (monitor-on-step monitor)
+    (funcall (monitor-on-step monitor) (reverse (monitor-steps monitor))))
   (unless (eq (monitor-expected monitor) :none)
     (let ((expected (pop (monitor-expected monitor))))
       (cond ((not (same-step-p step expected)) (leave-run monitor :left-trace))
@@ -244,14 +250,16 @@ these."
 
 (defun execute-sample (domain plan sample &key trace (execution :trace) arguments actions
                                             (output (make-broadcast-stream)) (fidelity :fast)
-                                            observer)
+                                            observer on-step)
   "Run PLAN (a symbol) with ARGUMENTS in a new world of DOMAIN that begins with SAMPLE, and return
 the RUN; if there are ACTIONS, RECORDED-ACTIONs, perform these in the place of the plan.  With a
 TRACE the sample must map to its initial state, else the run is invalid and has no steps; EXECUTION
 is :TRACE or :PLAN, FIDELITY :FAST or :FULL.  What the plan prints goes to OUTPUT.
 OBSERVER is a function of a projection, a designator and a failure, or NIL, as for
-PROJECTION:WATCH-PROJECTION; it is called once more at the end.  The same arguments give the same
-bits, provided that the plan does not read global variables that it writes."
+PROJECTION:WATCH-PROJECTION; it is called once more at the end.  ON-STEP is NIL or a function of a
+projection, the observed initial state and the list of the RUN-STEPs so far, called after each.  The
+same arguments give the same bits, provided that the plan does not read global variables that it
+writes."
   (with-open-projection (projection (projection:make-projection
                                      (domain-scene domain)
                                      :poses (sample-poses (domain-scene domain) sample)
@@ -280,6 +288,10 @@ bits, provided that the plan does not read global variables that it writes."
         (if (eq validity :valid)
             (let* ((monitor (make-instance 'monitor
                                            :domain domain :projection projection
+                                           :on-step (and on-step
+                                                         (lambda (steps)
+                                                           (funcall on-step projection
+                                                                    initial-state steps)))
                                            :expected (if (and trace (eq execution :trace))
                                                          (symbolic:trace-steps trace)
                                                          :none)))

@@ -73,6 +73,8 @@ search, replay.")
    ;; replay
    #:save-discrepancy #:replay #:replay-result #:replay-status #:replay-verdict
    #:replay-discrepancy #:replay-text
+   #:replay-stopped #:replay-stopped-number #:replay-stopped-text #:replay-stopped-projection
+   #:finish-replay
    ;; shrinking
    #:shrink-discrepancy #:shrinking #:shrinking-discrepancy #:shrinking-original
    #:shrinking-boundary #:shrinking-runs #:shrinking-seconds #:shrinking-exhausted
@@ -81,8 +83,8 @@ search, replay.")
    #:recorded-action #:recorded-action-text #:discrepancy-actions #:discrepancy-left-out
    ;; candidate edits of the theory
    #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
-   #:edit-requirements #:edit-removes-p #:edit-contradicted #:edit-runs #:edited-theory
-   #:edited-domain
+   #:edit-requirements #:edit-ranges #:edit-removes-p #:edit-contradicted #:edit-runs
+   #:edited-theory #:edited-domain
    ;; refinement
    #:refine-theory #:refinement #:refinement-domain #:refinement-initial-domain
    #:refinement-steps #:refinement-status #:refinement-reason #:refinement-simulations
@@ -99,4 +101,4 @@ search, replay.")
    ;; simulation without a trace
    #:simulate-blindly #:allowed-initial-states #:blind-result #:blind-result-simulations
    #:blind-result-rejected #:blind-result-kinds #:blind-result-discrepancy
-   #:blind-result-seconds))
+   #:blind-result-seconds #:discrepancy-summary))

@@ -3,20 +3,33 @@
 (in-package #:discrepancy-finder.discrepancy)
 
 (defun write-edit (edit stream)
+  "Write what EDIT changes, a line for each part, and what its check came to."
   (loop for part in (edit-parts edit)
-        do (format stream "     ~a~%" part))
+        do (format stream "  -> ~a~%" part))
   (format stream "     (~a)~%" (edit-verdict-text edit)))
+
+(defun write-parting (discrepancy stream)
+  "Write where theory and simulation part in DISCREPANCY, a line for each thing."
+  (let* ((divergence (judgement-divergence (discrepancy-judgement discrepancy)))
+         (step (nth (divergence-step divergence) (run-steps (discrepancy-run discrepancy)))))
+    (format stream "step ~d of ~(~a~)~%     ~a~%" (1+ (divergence-step divergence))
+            (plan:plan-name (discrepancy-plan discrepancy)) (run-step-designator step))
+    (when (eq (divergence-kind divergence) :outcome)
+      (format stream "     ends in ~(~a~), which the theory forbids~%" (run-step-outcome step)))
+    (loop for (atom theory simulation) in (divergence-fluents divergence)
+          do (format stream "     ~a is ~:[false~;true~] in the theory, ~:[false~;true~] in the ~
+                             simulation~%"
+                     (ec:atom-text atom) theory simulation))))
 
 (defun refinement-step-text (step number)
   "Return what STEP, the one with NUMBER of a refinement, was about: a text of several lines."
-  (let ((discrepancy (refinement-step-discrepancy step))
-        (edit (refinement-step-edit step)))
+  (let ((edit (refinement-step-edit step)))
     (with-output-to-string (stream)
-      (format stream "~3d. ~(~a~), ~a~%" number (plan:plan-name (discrepancy-plan discrepancy))
-              (discrepancy-summary discrepancy))
+      (format stream "~3d. " number)
+      (write-parting (refinement-step-discrepancy step) stream)
       (if edit
           (write-edit edit stream)
-          (format stream "     none of ~d candidate edit~:p will do~%"
+          (format stream "     -> none of ~d candidate edit~:p will do~%"
                   (length (refinement-step-alternatives step)))))))
 
 (defun learned-axioms (refinement)

@@ -3,8 +3,9 @@
 ;;;; SAVE-DISCREPANCY writes a JSON file with all that the run depends on: plan, domain, parameters,
 ;;;; trace, the sample's numbers, and a hash of the bits of the final state; for one that was shrunk
 ;;;; also the actions that are performed in the place of the plan, and the items that are left out.
-;;;; REPLAY runs it again, in any process, and tells "same bits" from "same verdict, other bits" and "other verdict".
-;;;; Reading a file evaluates nothing, and a file that is not right in every part is refused.
+;;;; REPLAY runs it again, in any process, and tells "same bits" from "same verdict, other bits" and
+;;;; "other verdict".  Reading a file evaluates nothing, and a file that is not right in every part
+;;;; is refused.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -155,6 +156,7 @@ discrepancies/, under a name made of plan, seed and state hash.  Signals REPLAY-
   (discrepancy nil :read-only t)
   (run nil :read-only t)
   (judgement nil :read-only t)
+  (compared nil :type case-run :read-only t)
   (recorded-hash 0 :type (unsigned-byte 64) :read-only t)
   (changed-files '() :type list :read-only t))
 
@@ -174,16 +176,23 @@ the initial state is not one of the trace any more."
   (print-unreadable-object (result stream :type t)
     (format stream "~(~a~)" (replay-status result))))
 
-(defun replay (file)
+(defun replay (file &key step)
   "Run the discrepancy stored in FILE again and return a REPLAY-RESULT.  Reading FILE evaluates
 nothing; but the plan and the domain that it names, which are code, are loaded from the files that
-it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
+it names, unless they are defined.  With STEP each action is told as soon as it is performed, on
+both sides, and T asks at *QUERY-IO* before the next one, :DEBUGGER signals REPLAY-STOPPED in the
+debugger; a function of the number of actions performed, that text and the projection returns :NEXT,
+or :FINISH for no more stops.  Signals REPLAY-ERROR, SOURCE-ERROR."
+  (check-argument 'step step (or (member step '(nil t :debugger)) (functionp step))
+                  "nil, t, :debugger or a function")
   (destructuring-bind (&key plan domain parameters trace constraint execution compare comparison
                          (seed 0) actions left-out sample recorded changed-files)
       (read-replay-file file)
     (let* ((run (execute-sample domain (plan:plan-name plan) sample
                                 :trace trace :execution execution
-                                :arguments (symbolic:trace-arguments trace) :actions actions))
+                                :arguments (symbolic:trace-arguments trace) :actions actions
+                                :on-step (and step
+                                              (stepper domain trace sample comparison step))))
            (judgement (if (eq (run-validity run) :valid)
                           (judge-run domain run trace :compare compare :comparison comparison)
                           (make-judgement :verdict :left-trace)))
@@ -193,7 +202,9 @@ it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
        :status (cond ((and same-bits same-verdict) :same-bits)
                      (same-verdict :same-verdict)
                      (t :other-verdict))
-       :run run :judgement judgement :recorded-hash (first recorded) :changed-files changed-files
+       :run run :judgement judgement
+       :compared (compared-run domain trace run comparison)
+       :recorded-hash (first recorded) :changed-files changed-files
        :discrepancy (and (eq (judgement-verdict judgement) :discrepancy)
                          (make-discrepancy
                           :plan plan :domain domain :parameters parameters :execution execution
@@ -202,22 +213,31 @@ it names, unless they are defined.  Signals REPLAY-ERROR, SOURCE-ERROR."
                           :judgement judgement :confirmed-p same-bits
                           :file (source:native-name file)))))))
 
-(defun replay-text (result)
-  "Return the report of the REPLAY-RESULT RESULT, a text of several lines."
-  (with-output-to-string (stream)
-    (format stream "~a~%"
-            (ecase (replay-status result)
-              (:same-bits "SAME BITS: the replayed run ends in the recorded state, bit for bit.")
-              (:same-verdict "SAME VERDICT, OTHER BITS: the replayed run is judged as recorded.")
-              (:other-verdict "OTHER VERDICT: the replayed run is not judged as recorded.")))
-    (format stream "  state hash ~a, recorded ~a~%" (hash-text (run-hash (replay-run result)))
-            (hash-text (replay-recorded-hash result)))
-    (dolist (file (replay-changed-files result))
-      (format stream "  ~a has changed since~%" file))
-    (cond ((not (eq (run-validity (replay-run result)) :valid))
-           (format stream "  the initial state is not valid any more: ~a~%"
-                   (run-validity (replay-run result))))
-          ((replay-discrepancy result)
-           (write-string (discrepancy-text (replay-discrepancy result)) stream))
-          (t (format stream "  theory and simulation agree; final state ~a~%"
-                     (state-text (observed-fluents (run-final-state (replay-run result)))))))))
+(defun replay-text (result &key (steps t))
+  "Return the report of the REPLAY-RESULT RESULT, a text of several lines: whether it came out the
+same, and, if STEPS, what theory and simulation have of each action, side by side."
+  (let* ((compared (replay-compared result))
+         (run (replay-run result)))
+    (with-output-to-string (stream)
+      (format stream "~a~%"
+              (ecase (replay-status result)
+                (:same-bits "SAME BITS: the replayed run ends in the recorded state, bit for bit.")
+                (:same-verdict "SAME VERDICT, OTHER BITS: the replayed run is judged as recorded.")
+                (:other-verdict
+                 "OTHER VERDICT: the replayed run is not judged as recorded.")))
+      (format stream "  state hash ~a, recorded ~a~%" (hash-text (run-hash run))
+              (hash-text (replay-recorded-hash result)))
+      (dolist (file (replay-changed-files result))
+        (format stream "  ~a has changed since~%" file))
+      (when (replay-discrepancy result)
+        (describe-shrinking (replay-discrepancy result) stream))
+      (describe-sample (case-run-domain compared) (run-sample run) stream)
+      (cond ((not (eq (run-validity run) :valid))
+             (format stream "  the initial state is not valid any more: ~a~%" (run-validity run)))
+            (t
+             (when steps
+               (write-string (side-by-side-text compared) stream))
+             (if (replay-discrepancy result)
+                 (describe-divergence (replay-discrepancy result) stream)
+                 (format stream "  theory and simulation agree; final state ~a~%"
+                         (state-text (observed-fluents (run-final-state run))))))))))

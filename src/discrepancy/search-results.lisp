@@ -123,6 +123,7 @@ together; NIL if none was drawn."
   (let ((undecided (find :certified (result-traces result) :key #'trace-result-status
                                                            :test-not #'eq)))
     (cond ((result-discrepancies result) "theory and simulation disagree")
+          ((and (result-stopped result) (null (result-traces result))) (result-stopped result))
           ((not (symbolic:exploration-consistent-p (result-exploration result)))
            "the theory allows no initial state")
           (undecided (trace-result-reason undecided))

@@ -199,8 +199,7 @@ SEARCH-FUNCTION returns where it has to end."
   "Search for a discrepancy between the theory and the scene of DOMAIN along PLAN (a symbol) and
 return a SEARCH-RESULT.
   DOMAIN          a domain or its name
-  CONSTRAINT      the name of the state constraint; NIL: the theory's only one; :ANY-ACTION: each
-                  performed action ends a trace
+  CONSTRAINT      the name of the state constraint; NIL: the theory's only one
   CONFIDENCE      in ]0, 1[, for the confidence RULE: :PAPER, :PAPER-SD, :PREDICTION,
                   :ZERO-FAILURE or :SOUND
   DELTA           in ]0, 1[, for the last two: the part of a trace's initial region that may be
@@ -218,8 +217,8 @@ return a SEARCH-RESULT.
   RESUME          NIL, or the file of a journal, made if need be: what a search with the same
                   arguments but for budgets has run is taken from there
   SHRINK, EXPLAIN true: make a discrepancy smaller, and explain it
-  PROGRESS        NIL, or a function that is called after each simulation with the keyword
-                  arguments :PHASE (its name), :TRACE (its number, from 1), :SIMULATIONS,
+  PROGRESS        NIL, or a function that is called after each sample, and where another phase
+                  begins, with the keyword arguments :PHASE (its name), :TRACE (its number, from 1), :SIMULATIONS,
                   :REJECTED (samples of this trace), :DISCREPANCIES (kinds), :SECONDS and
                   :VERDICT (of the confidence rule, or NIL)
   PARAMETERS      a property list of scene parameters that override the scene's

@@ -49,6 +49,21 @@ EXHAUSTED is NIL, or says when it was stopped by its bounds."
                                                 (run-steps (discrepancy-run best))))
                           :confirmed-p (= (run-hash again) (run-hash (discrepancy-run best))))))))
 
+(defun find-witnesses (shrinker)
+  "Return at most two samples that pass in the original of SHRINKER: the ordinary one, if it does,
+and the last one that the search has seen, or else one that is drawn."
+  (let* ((original (shrinker-original shrinker))
+         (ordinary (ordinary-sample (domain-scene (discrepancy-domain original))
+                                    (discrepancy-sample original)))
+         (seen (find-if (lambda (judgement)
+                          (and judgement (eq (judgement-verdict judgement) :consistent)))
+                        (discrepancy-runs original) :key #'cdr :from-end t))
+         (passing (if seen
+                      (run-sample (car seen))
+                      (passing-sample shrinker 8))))
+    (append (and (eq :passing (attempt shrinker :sample ordinary)) (list ordinary))
+            (and passing (list passing)))))
+
 (defun shrink-discrepancy (discrepancy &key (max-runs 300) (max-seconds 60))
   "Shrink DISCREPANCY to a smaller one of the same kind, find the nearest sample that passes, and
 return a SHRINKING.  It takes at most MAX-RUNS runs, and one to confirm the result, and begins none
@@ -63,6 +78,7 @@ after MAX-SECONDS.  Signals INVALID-ARGUMENT."
                        :original discrepancy :best discrepancy :context context
                        :kind (discrepancy-kind discrepancy)
                        :max-runs max-runs :deadline (+ start max-seconds))))
+        (setf (shrinker-witnesses shrinker) (find-witnesses shrinker))
         (unless (discrepancy-actions discrepancy)
           (shrink-actions shrinker))
         (shrink-items shrinker)
@@ -97,8 +113,8 @@ the nearest sample that passes.  COMMAND is as for DISCREPANCY-TEXT."
     (with-output-to-string (stream)
       (format stream "shrunk in ~d run~:p~@[, stopped ~a~]~%" (shrinking-runs shrinking)
               (shrinking-exhausted shrinking))
-      (format stream "  ~d of ~d step~:p are left~%"
-              (step-count discrepancy) (step-count original))
+      (format stream "  ~d of ~d step~:p ~:[are~;is~] left~%"
+              (step-count discrepancy) (step-count original) (= 1 (step-count discrepancy)))
       (format stream "  ~d of ~d drawn values ~:[are~;is~] ordinary~@[; what matters: ~a~]~%"
               ordinary drawn (= ordinary 1)
               (and (< ordinary drawn) (mattering-text discrepancy)))
@@ -109,15 +125,19 @@ the nearest sample that passes.  COMMAND is as for DISCREPANCY-TEXT."
       (write-string (discrepancy-text discrepancy :command command) stream))))
 
 (defun shrinking-json (shrinking)
-  "Return the JSON object of SHRINKING: the smaller discrepancy, as in its replay file, the boundary
-or null, and what it took."
+  "Return the JSON object of SHRINKING: the smaller discrepancy, as in its replay file, how many of
+the steps are left, the values that matter, the boundary or null, and what it took."
   (let ((boundary (shrinking-boundary shrinking)))
     (json:object
      "discrepancy" (discrepancy-json (shrinking-discrepancy shrinking))
      "steps" (vector (step-count (shrinking-original shrinking))
                      (step-count (shrinking-discrepancy shrinking)))
-     "left out" (map 'vector #'ec:name-text
+     "left-out" (map 'vector #'ec:name-text
                      (discrepancy-left-out (shrinking-discrepancy shrinking)))
+     "mattering" (loop with sample = (discrepancy-sample (shrinking-discrepancy shrinking))
+                       for number in (mattering-numbers (shrinking-discrepancy shrinking))
+                       collect (cons (parameter-name (nth number (sample-parameters sample)))
+                                     (aref (sample-values sample) number)))
      "boundary" (if boundary
                     (map 'vector
                          (lambda (change)

@@ -1,4 +1,5 @@
-;;;; The subcommands about a stored discrepancy: replay it, say why it is one, make it smaller.
+;;;; The subcommands about discrepancies: replay a stored one, say why it is one, make it smaller; and
+;;;; refine a theory by those that are found.
 
 (in-package #:discrepancy-finder)
 
@@ -16,10 +17,16 @@
     ((:left-trace :invalid) 3)))
 
 (define-subcommand "replay" (arguments options)
-    ("FILE"
-     "Run a stored discrepancy again, and say whether it comes out the same.")
-  (let ((result (replay (file-argument arguments "replay"))))
-    (write-string (replay-text result))
+    ("FILE [--step]"
+     "Run a stored discrepancy again, both executions side by side; does it come out the same?"
+     (("step") :type boolean :optional t
+      :documentation "stop after each action: Enter goes on, c goes on to the end"))
+  (let* ((step (getf options :step))
+         (*query-io* (if step
+                         (make-two-way-stream *standard-input* *standard-output*)
+                         *query-io*))
+         (result (replay (file-argument arguments "replay") :step (and step t))))
+    (write-string (replay-text result :steps (not step)))
     (verdict-code result)))
 
 (defun call-with-replayed (function arguments command)
@@ -62,3 +69,29 @@ print the replay.  Return the exit status."
          (save-discrepancy (discrepancy:shrinking-discrepancy shrinking) (getf options :save)))
        (write-string (discrepancy:shrinking-text shrinking :command (command-name)))))
    arguments "shrink"))
+
+(define-subcommand "refine" (arguments options)
+    ("PLAN ... --domain DOMAIN [OPTION ...]"
+     "Refine a theory: find a discrepancy, apply the best edit, and again, until none is found."
+     (("domain") :type string :documentation "name of a domain, or its file or folder")
+     (("constraint") :type string :documentation "name of the state constraint (any-action)")
+     (("edits") :type integer :documentation "largest number of edits (50)")
+     (("seed") :type integer :documentation "seed of the samples (1)")
+     (("set") :type string :list t :optional t
+      :documentation "scene parameter, as name=number; may be repeated"))
+  (let* ((plans (or (loop for argument in arguments collect (plan-argument (list argument)))
+                    (usage-problem "A plan is missing.")))
+         (domain (domain-argument options))
+         (refinement (apply #'refine-theory plans
+                            :domain domain
+                            :parameters (parameter-arguments (getf options :set))
+                            (append (loop for key in '(:edits :seed)
+                                          when (getf options key)
+                                            append (list key (getf options key)))
+                                    (and (getf options :constraint)
+                                         (list :constraint
+                                               (keyword-argument (getf options :constraint))))))))
+    (write-string (discrepancy:refinement-text refinement))
+    (ecase (discrepancy:refinement-status refinement)
+      (:refined 0)
+      (:undecided 3))))

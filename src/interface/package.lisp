@@ -54,9 +54,14 @@
                 #:discrepancy-run #:discrepancy-judgement
                 #:run-plan #:run #:run-step #:run-steps #:run-final-state #:run-hash
                 #:result-json #:explain-discrepancy #:explanation-text
+                #:refine-theory #:refinement-text
                 #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
                 #:shrink-discrepancy #:shrinking #:shrinking-text #:shrinking-discrepancy
                 #:shrinking-boundary
+                #:candidate-edits #:edit #:edit-text #:edit-removes-p #:edit-contradicted
+                #:edit-runs #:edited-domain
+                #:refine-theory #:refinement-text #:refinement-domain #:refinement-status
+                #:refinement-steps
                 #:discrepancy-found #:discrepancy-found-discrepancy
                 #:continue-search #:next-trace #:accept
                 #:discrepancy-error #:abstraction-error #:sampling-error #:replay-error
@@ -112,8 +117,11 @@
    #:discrepancy-judgement
    #:save-discrepancy #:replay #:replay-status #:replay-verdict #:replay-text
    #:result-json #:write-report
-   #:explain-discrepancy #:explanation-text
+   #:explain-discrepancy #:explanation-text #:refine-theory #:refinement-text
    #:shrink-discrepancy #:shrinking #:shrinking-text #:shrinking-discrepancy #:shrinking-boundary
+   #:candidate-edits #:edit #:edit-text #:edit-removes-p #:edit-contradicted #:edit-runs
+   #:edited-domain
+   #:refine-theory #:refinement-text #:refinement-domain #:refinement-status #:refinement-steps
    ;; conditions and restarts
    #:discrepancy-found #:discrepancy-found-discrepancy #:continue-search #:next-trace #:accept
    #:event-calculus-error #:theory-error #:theory-not-found #:state-constraint-not-found
@@ -131,6 +139,8 @@
    #:invalid-confidence #:invalid-delta #:unknown-confidence-rule #:invalid-argument
    #:z3-error #:solver-unknown #:retry-with-timeout #:treat-as-sat
    ;; the command line
-   #:main #:demo #:version))
+   #:main #:demo #:version
+   ;; the paper's evaluation
+   #:table1))
 
 (use-package '#:discrepancy-finder '#:discrepancy-finder-user)

@@ -20,13 +20,15 @@ build/discrepancy-finder.new."
   (member name (rest sb-ext:*posix-argv*) :test #'string=))
 
 (defun run-tests ()
-  "Run the test suites, the long ones, too, if --long is on the command line.  The last line of
-output counts the checks; the exit status is 0 if none failed, else 1."
+  "Run the test suites, the long ones, too, if --long is on the command line, and those that look at
+reports in a browser, if --browser is.  The last line of output counts the checks; the exit status
+is 0 if none failed, else 1."
   (handler-bind ((warning #'muffle-warning))
     (let ((*standard-output* (make-broadcast-stream)))
       (asdf:load-system "discrepancy-finder/tests")))
   (sb-ext:exit :code (if (uiop:symbol-call '#:discrepancy-finder.tests '#:report-all-tests
-                                           :long (option-p "--long"))
+                                           :long (option-p "--long")
+                                           :browser (option-p "--browser"))
                          0
                          1)
                :abort nil))

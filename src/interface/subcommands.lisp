@@ -18,9 +18,10 @@
 ;;; The script runs these two itself, from the sources, where it understands what follows them.
 
 (define-subcommand "test" (arguments options)
-    ("[--long]"
-     "Run the test suites; --long adds the long ones.")
-  (usage-problem "test is run by the script discrepancy-finder, with --long or nothing after it."))
+    ("[--long] [--browser]"
+     "Run the test suites; --long adds the long ones, --browser those in Chromium.")
+  (usage-problem "test is run by the script discrepancy-finder, with --long, --browser or nothing ~
+                  after it."))
 
 (define-subcommand "bench" (arguments options)
     (""

@@ -164,7 +164,8 @@ discrepancy."
 (defun discrepancy-section (number found discrepancy shots command)
   "Return the section for DISCREPANCY, of which the object FOUND tells; it has NUMBER."
   `(:section (:id ,(format nil "discrepancy-~d" number))
-     (:h2 () ,(format nil "Discrepancy ~d" number))
+     (:h2 () ,(format nil "Discrepancy ~d: ~a~@[, ~d times~]" number (key found "kind")
+                      (let ((times (key found "occurrences"))) (and (> times 1) times))))
      ,(and (> number 1) (summary-node found))
      ,(explanation-nodes (key found "explanation"))
      ,(replay-node found command)

@@ -19,6 +19,7 @@ code, pre, .designator { font-family: ui-monospace, SFMono-Regular, Menlo, Conso
                          'DejaVu Sans Mono', monospace; font-size: 0.87em }
 .quiet, .place, .meaning { color: var(--quiet) }
 .place, .meaning { font-size: 12.5px }
+ul, ol { margin: 0 0 12px; padding-left: 24px }
 .banner { border: 1px solid var(--line); border-left: 6px solid var(--quiet); border-radius: 6px;
           padding: 18px 22px; background: var(--soft) }
 .banner p:last-child { margin-bottom: 0 }

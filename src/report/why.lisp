@@ -20,8 +20,10 @@
                               (key explanation "step")))
               ,(sentences-node (key ending "reasons"))))
       ,(loop for claim across (key explanation "claims")
-             collect `((:p () ,(format nil "The theory ~:[says~;would have said~] that ~a:"
-                                       ending (claim-fluents-text claim)))
+             collect `((:p () ,(format nil "The theory ~:[says~;would have said~] that ~a after ~
+                                            step ~d:"
+                                       ending (claim-fluents-text claim)
+                                       (key explanation "step")))
                        ,(sentences-node (key claim "reasons")))))))
 
 (defun as-sentence (text)
@@ -61,7 +63,7 @@
       `((:h3 () "The smallest case")
         (:p () ,(format nil "~d of ~d step~:p ~:[are~;is~] left~@[; ~{~a~^, ~} left out of the ~
                              world~]." after before (= after 1)
-                        (texts (key shrunk "left out"))))
+                        (texts (key shrunk "left-out"))))
         (:ol () ,(loop for step across (key shrunk "discrepancy" "trace" "steps")
                        collect `(:li () (:code () ,(key step "designator")))))
         ,(and (key shrunk "boundary")

@@ -64,7 +64,8 @@
            (smaller (df:shrinking-discrepancy shrinking)))
       (is (null (discrepancy:shrinking-exhausted shrinking)))
       (is-true (discrepancy:discrepancy-confirmed-p smaller))
-      (is (equal '(:pick-up :manipulation-pose-unreachable) (discrepancy:discrepancy-kind original)))
+      (is (equal '(:pick-up :manipulation-pose-unreachable)
+                 (discrepancy:discrepancy-kind original)))
       (is (equal (discrepancy:discrepancy-kind original) (discrepancy:discrepancy-kind smaller)))
       (is (equal '("(a motion (type going) (pose 1.500 0.000 0.000))"
                    "(an action (type picking-up) (object (an object (type box))))")
@@ -123,6 +124,25 @@
                 (without-element number (discrepancy::short-steps smaller))))
           "step ~d is needed" (1+ number)))))
 
+(test what-passed-must-still-pass
+  (let* ((original (example-discrepancy 1))
+         (steps (discrepancy::short-steps original)))
+    (flet ((improved-p (&rest witnesses)
+             (let ((shrinker (shrinker-of original)))
+               (setf (discrepancy::shrinker-witnesses shrinker) witnesses)
+               (discrepancy::improve-by-steps shrinker steps))))
+      (let* ((witnesses (discrepancy::find-witnesses (shrinker-of original)))
+             (values (mapcar (lambda (sample)
+                               (coerce (discrepancy:sample-values sample) 'list))
+                             witnesses)))
+        (is (equal '(0.5d0 0d0 1.5d0 0.4d0 0d0) (first values)) "the ordinary sample passes")
+        (is (= 2 (length witnesses)))
+        (dolist (witness witnesses)
+          (is (eq :consistent (verdict-from original witness))))
+        (is-true (apply #'improved-p witnesses)))
+      (is (null (improved-p (discrepancy:discrepancy-sample original)))
+          "a witness that does not pass"))))
+
 (test without-its-plan-a-run-has-the-same-bits
   (let* ((original (table-top-discrepancy))
          (actions (mapcar #'discrepancy::short-step-action (discrepancy::short-steps original)))
@@ -171,7 +191,8 @@
         (is (equal (discrepancy:discrepancy-left-out smaller)
                    (discrepancy:discrepancy-left-out again)))
         (let ((shrinking (df:shrink-discrepancy again)))
-          (is (equal (shrunk-steps smaller) (shrunk-steps (df:shrinking-discrepancy shrinking)))))))))
+          (is (equal (shrunk-steps smaller)
+                     (shrunk-steps (df:shrinking-discrepancy shrinking)))))))))
 
 (test files-of-the-first-format-are-read
   (with-stored-discrepancy (file discrepancy)
