@@ -157,7 +157,11 @@ to agree; all of NUMBERS are enough.  No part of it can be left out, as far as t
                  (setf numbers (remove-if-not (lambda (number) (member number rest)) numbers)))))
         until (or (= size 1) (null (rest numbers)))
         do (setf size (max 1 (min (floor size 2) (floor (length numbers) 2)))))
-  numbers)
+  (sort (copy-list numbers) #'<))
+
+(defparameter *most-together* 3
+  "So many coordinates at most count as deciding together if the runs did not suffice to leave out
+more.")
 
 (defparameter *halvings* 6
   "So often the way between a failing and an agreeing value is halved.")
@@ -269,6 +273,9 @@ context."
                                    (= (aref others number) (aref (failing-values prober) number)))
                                  (reverse numbers))
                       others)))
+    (when (and (exhausted-prober-p prober) (> (length decisive) *most-together*))
+      ;; There were too few runs to leave out those that do not matter.
+      (setf decisive '()))
     (let ((influences (append
                        (and decisive (list (boundary-influence prober decisive others)))
                        (single-influences prober (if (rest decisive)

@@ -25,12 +25,24 @@ observed-in-the-run-3)\"."
   (loop for prefix in (list *fact-prefix* *event-prefix*)
         thereis (search (format nil "because of axiom ~(~a~)" prefix) sentence)))
 
+(defun replaced-text (text old new)
+  "Return TEXT with NEW in the place of each OLD."
+  (loop for start = (search old text)
+        while start
+        do (setf text (concatenate 'string (subseq text 0 start) new
+                                   (subseq text (+ start (length old))))))
+  text)
+
 (defun derivation-texts (claim)
   "Return the sentences by which the reasoner derives CLAIM, but for what was seen in the run."
-  (and (claim-explanation claim)
-       (loop for sentence in (ec:explanation-sentences (claim-explanation claim))
-             for text = (without-mentions sentence *fact-prefix*)
-             unless (told-sentence-p text) collect text)))
+  (remove-duplicates
+   (loop for explanation in (claim-explanations claim)
+         append (loop for sentence in (ec:explanation-sentences explanation)
+                      for text = (replaced-text (without-mentions sentence *fact-prefix*)
+                                                (format nil "axiom ~(~a~)" *outcome-name*)
+                                                "how the step ended")
+                      unless (told-sentence-p text) collect text))
+   :test #'string= :from-end t))
 
 (defun inertia-text (atom truth event)
   (format nil "~a persists by inertia through ~a: no axiom ~:[initiates~;terminates~] it."
@@ -44,7 +56,7 @@ observed-in-the-run-3)\"."
 (defun claim-texts (claim event)
   "Return the sentences why the theory claims CLAIM after EVENT."
   (destructuring-bind (&optional fluent &rest more) (claim-fluents claim)
-    (cond ((null (claim-explanation claim))
+    (cond ((null (claim-explanations claim))
            '("The theory leaves it open; the trace has one of the possibilities."))
           ((and fluent (null more) (persists-p claim (car fluent) event))
            (list (inertia-text (car fluent) (cdr fluent) event)))
@@ -124,7 +136,7 @@ observed-in-the-run-3)\"."
     (flet ((all-text (values)
              (format nil "~{~a~^ and ~}" (mapcar #'value-text parameters values))))
       (if (rest parameters)
-          (format nil "Only together: ~a fails still, ~a agrees."
+          (format nil "Together: ~a fails still, ~a agrees."
                   (all-text (influence-failing influence)) (all-text (influence-agreeing influence)))
           (destructuring-bind (here failing agreeing)
               (loop for values in (list (influence-here influence) (influence-failing influence)

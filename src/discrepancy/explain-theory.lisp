@@ -4,8 +4,8 @@
 ;;;; run, and the events after it.  A CLAIM is a fluent's value after the divergent step, or that the
 ;;;; step cannot have ended as it did; its minimal core names the axioms.  The shortest piece of the
 ;;;; run from which the claim follows is taken, one step as a rule, and for each fact that the claim
-;;;; rests on its ORIGIN is told: the step that brought it about.  Entry points: STATE-CLAIMS and
-;;;; OUTCOME-CLAIM.
+;;;; rests on its ORIGIN is told: the step that brought it about.  Entry points: STATE-CLAIMS,
+;;;; OUTCOME-CLAIM and REQUIREMENT-CLAIM.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -13,7 +13,8 @@
 
 (defstruct (moment (:copier nil))
   "What is the case at the timepoint TIME of a run: FACTS is a list of (atom . truth), observed or,
-where nothing is observed, said by the theory.  SELF-CONTAINED-P is true if what happened before
+where nothing is observed, said by the theory; what follows from other fluents at the same time, as
+fluents that are not inertial do, is no fact unless it is observed.  SELF-CONTAINED-P is true if what happened before
 does not matter to the theory."
   (time 0 :type (integer 0) :read-only t)
   (facts '() :type list :read-only t)
@@ -24,8 +25,10 @@ does not matter to the theory."
   (make-moment
    :time time
    :facts (append observed
-                  (loop for atom across (ec:ground-theory-fluents ground)
-                        for value = (if (assoc atom observed :test #'equal)
+                  (loop with others = (ec:theory-non-inertial (ec:ground-theory-theory ground))
+                        for atom across (ec:ground-theory-fluents ground)
+                        for value = (if (or (member (first atom) others)
+                                            (assoc atom observed :test #'equal))
                                         :open
                                         (theory-value solver candidates atom))
                         unless (eq value :open) collect (cons atom value)))
@@ -140,11 +143,11 @@ AXIOMS, names; STEP is NIL if it has been so from the beginning."
 
 (defstruct (claim (:copier nil))
   "What the theory says of FLUENTS, a list of (atom . truth), after a step, or, where that is empty,
-that the step cannot have ended as it did.  EXPLANATION is the reasoner's, or NIL if it has none;
-AXIOMS are the names of the theory's axioms in it, PERSISTENT a list of (atom truth event) for what
+that the step cannot have ended as it did.  EXPLANATIONS are the reasoner's, as a rule one; AXIOMS
+are the names of the theory's axioms in them, PERSISTENT a list of (atom truth event) for what
 persists by inertia through an event, ORIGINS those of the facts that the claim rests on."
   (fluents '() :type list :read-only t)
-  (explanation nil :read-only t)
+  (explanations '() :type list :read-only t)
   (axioms '() :type list :read-only t)
   (persistent '() :type list :read-only t)
   (facts '() :type list :read-only t)
@@ -176,7 +179,7 @@ persists by inertia through an event, ORIGINS those of the facts that the claim 
   "Return the claim of FLUENTS by EXPLANATION, of the piece of RUN that begins at MOMENT."
   (let ((facts (and explanation (cited-facts explanation moment))))
     (make-claim
-     :fluents fluents :explanation explanation :facts facts
+     :fluents fluents :explanations (and explanation (list explanation)) :facts facts
      :axioms (and explanation (own-axioms explanation))
      :persistent (and explanation
                       (loop for (atom time) in (ec:explanation-persistent explanation)
@@ -191,6 +194,14 @@ persists by inertia through an event, ORIGINS those of the facts that the claim 
 
 ;;; After a step
 
+(defun form-explanation (domain moments run number event form)
+  "Return why FORM is true where EVENT happens in step NUMBER of RUN, or NIL, and the moment from
+which it follows."
+  (call-with-pieces (lambda (moment)
+                      (ec:why (piece-of-run domain moment run number :event event) form
+                              :horizon (list (moment-time moment) (1+ number))))
+                    moments number))
+
 (defun value-explanation (domain moments run number atom truth)
   "Return why the theory says that ATOM has the value TRUTH after step NUMBER of RUN, or NIL, and the
 moment from which it follows."
@@ -200,14 +211,12 @@ moment from which it follows."
 (defun fluents-explanation (domain moments run number event fluents)
   "Return why the theory says that after EVENT in step NUMBER of RUN not all of FLUENTS, a list of
 \(atom . truth), have the opposite values, and the moment from which it follows; or NIL."
-  (let ((form (if (rest fluents)
-                  (cons :or (loop for (atom . truth) in fluents
-                                  collect (literal-form atom truth (1+ number))))
-                  (literal-form (car (first fluents)) (cdr (first fluents)) (1+ number)))))
-    (call-with-pieces (lambda (moment)
-                        (ec:why (piece-of-run domain moment run number :event event) form
-                                :horizon (list (moment-time moment) (1+ number))))
-                      moments number)))
+  (form-explanation domain moments run number event
+                    (if (rest fluents)
+                        (cons :or (loop for (atom . truth) in fluents
+                                        collect (literal-form atom truth (1+ number))))
+                        (literal-form (car (first fluents)) (cdr (first fluents))
+                                      (1+ number)))))
 
 (defun state-claims (domain moments run number event differing)
   "Return the claims of the theory of DOMAIN about DIFFERING, a list of (atom theory-value
@@ -220,7 +229,7 @@ the theory says nothing of each by itself."
                                                         (list fluent))
                                  (claim-of domain moments run explanation moment
                                            (list fluent))))))
-    (cond ((or (some #'claim-explanation claims) (null (rest fluents))) claims)
+    (cond ((or (some #'claim-explanations claims) (null (rest fluents))) claims)
           (t (multiple-value-bind (explanation moment)
                  (fluents-explanation domain moments run number event fluents)
                (if explanation
@@ -244,26 +253,36 @@ moment from which it follows."
                          :horizon (list (moment-time moment) (1+ number))))
                       moments number)))
 
-(defun outcome-claim (domain moments run number)
-  "Return the claim that step NUMBER of RUN cannot have ended as it did, or NIL if its action binding
-has no such outcome."
-  (let ((outcome (first (run-step-candidates (nth number (run-steps run))))))
-    (and outcome
-         (multiple-value-bind (explanation moment)
-             (outcome-explanation domain moments run number outcome)
-           (claim-of domain moments run explanation moment '())))))
+(defun joined-claim (claims)
+  "Return one claim that rests on what CLAIMS rest on."
+  (flet ((all (reader &optional (key #'identity))
+           (remove-duplicates (loop for claim in claims append (funcall reader claim))
+                              :test #'equal :key key :from-end t)))
+    (make-claim :explanations (all #'claim-explanations) :axioms (all #'claim-axioms)
+                :persistent (all #'claim-persistent) :facts (all #'claim-facts)
+                :origins (all #'claim-origins #'origin-atom))))
 
-(defun requirement-claim (domain moments run number outcome)
-  "Return the claim that OUTCOME, a success, was possible in step NUMBER of RUN: that its condition
-held; or NIL if it has none or that does not follow."
-  (let* ((formula (symbolic:outcome-condition outcome))
-         (form (and (consp formula)
-                    (ec:formula-form (symbolic:action-theory-ground domain) formula number))))
-    (and form
-         (multiple-value-bind (explanation moment)
-             (call-with-pieces (lambda (moment)
-                                 (ec:why (piece-of-run domain moment run number) form
-                                         :horizon (list (moment-time moment) (1+ number))))
-                               moments number)
-           (and explanation
-                (claim-of domain moments run explanation moment '()))))))
+(defun requirement-claim (domain moments run number formula)
+  "Return the claim that FORMULA, the condition of an outcome, held before step NUMBER of RUN, each
+part of it; or NIL if there is none or that does not follow."
+  (let* ((form (and (consp formula)
+                    (ec:formula-form (symbolic:action-theory-ground domain) formula number)))
+         (claims (loop for part in (if (eq (first form) :and)
+                                       (rest form)
+                                       (and form (list form)))
+                       collect (multiple-value-bind (explanation moment)
+                                   (form-explanation domain moments run number nil part)
+                                 (and explanation
+                                      (claim-of domain moments run explanation moment '()))))))
+    (and claims (every #'identity claims)
+         (joined-claim claims))))
+
+(defun outcome-claim (domain moments run number outcome)
+  "Return the claim that step NUMBER of RUN cannot have ended with OUTCOME."
+  (let ((condition (symbolic:outcome-condition outcome)))
+    (or (and (null (symbolic:outcome-event outcome))
+             (consp condition) (eq (first condition) :not)
+             (requirement-claim domain moments run number (second condition)))
+        (multiple-value-bind (explanation moment)
+            (outcome-explanation domain moments run number outcome)
+          (claim-of domain moments run explanation moment '())))))

@@ -116,8 +116,9 @@ RUN has followed it so far, else that of success."
          (success (find :success outcomes :key #'symbolic:outcome-name))
          (ending (and outcome-p
                       (if seen
-                          (outcome-claim domain moments run number)
-                          (requirement-claim domain moments run number success)))))
+                          (outcome-claim domain moments run number seen)
+                          (requirement-claim domain moments run number
+                                             (symbolic:outcome-condition success))))))
     (list :step number :action (princ-to-string (run-step-designator step))
           :event event :kind (divergence-kind divergence)
           :outcome (or (run-step-failure step) "success")

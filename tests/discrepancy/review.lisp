@@ -91,3 +91,26 @@
       (is-true (among-p '(:inertia :robot-in :pick-up t)))
       (is-false (among-p '(:inertia :holding-box :put-down t)))
       (is-true (among-p '(:binding :motion :going))))))
+
+;;; docs/explanations.md
+
+(defun shows-lines-p (text lines)
+  "Check that all LINES, but for \"...\", are lines of TEXT, in this order."
+  (let ((start 0))
+    (dolist (line lines)
+      (unless (string= line "...")
+        (let ((place (search (format nil "~a~%" line) text :start2 start)))
+          (is-true place "~s is not in~%~a" line text)
+          (when place (setf start place)))))))
+
+(test the-text-on-explanations-shows-one
+  (shows-lines-p (discrepancy:explanation-text
+                  (discrepancy:explain-discrepancy (found-in-example 1) :runs '()))
+                 (text-block "docs/explanations.md" "  why (timepoint n is after step n)")))
+
+(test the-text-on-explanations-shows-a-review
+  (call-with-store
+   (lambda (folder)
+     (shows-lines-p (discrepancy:review-text
+                     (reviewed 'discrepancy-finder-user::move-the-box :no-failure folder))
+                    (text-block "docs/explanations.md" "#<VERIFICATION")))))
