@@ -112,7 +112,7 @@
                         :directory "/tmp" :environment '("TERM=xterm"))))
     (let* ((command (format nil "~a find move-the-box --domain two-regions" (executable)))
            (shown (output command)))
-      (is (search "exploring the plan" shown))
+      (is (search "simulating, trace 1, 1 simulation" shown))
       (is (search (format nil "~c[K" #\Escape) shown))
       (is (search "NO DISCREPANCY" shown))
       ;; With standard error elsewhere nothing of it is seen.

@@ -128,6 +128,22 @@ line that contains PARTS."
       (is (= (if (string= reach "0.8") 0 1) status))
       (is-golden (format nil "find-~a" reach) (without-directories (without-times output))))))
 
+(defun refresh-golden ()
+  "Write the golden files anew from what the executable prints.  Look at the difference."
+  (flet ((refresh (name output)
+           (with-open-file (stream (root-file (format nil "tests/golden/~a.txt" name))
+                                   :direction :output :if-exists :supersede
+                                   :external-format :utf-8)
+             (write-string (string-right-trim '(#\Newline)
+                                              (without-directories (without-times output)))
+                           stream)
+             (terpri stream))))
+    (refresh "demo" (df-command "demo"))
+    (dolist (reach '("0.8" "0.5"))
+      (refresh (format nil "find-~a" reach)
+               (df-command "find" "move-the-box" "--domain" "two-regions" "--set"
+                           (format nil "reach=~a" reach) "--seed" "1" "--save" "found.json")))))
+
 (test the-demo-explains-itself
   (multiple-value-bind (output errors status) (df-command "demo")
     (is (string= "" errors))

@@ -51,7 +51,8 @@ cannot be done there is a warning: what was found is worth more than the file."
            (let ((part (json:get-key object key nil)))
              (and (listp part) (json:get-key part "name" nil)))))
     (and object
-         (null (json:get-key object "actions" nil)) ; one that was shrunk: its original is here, too
+         ;; One that was shrunk has actions; its original is here, too.
+         (zerop (length (json:get-key object "actions" '())))
          (equal (name "plan") (ec:name-text (plan:plan-name (search-plan search))))
          (equal (name "domain")
                 (ec:name-text (symbolic:action-theory-name (search-domain search))))
@@ -83,7 +84,6 @@ cannot be done there is a warning: what was found is worth more than the file."
     (dolist (file (stored-files (search-store search)))
       (when (and (not (end-reason search))
                  (fits-search-p (stored-object file) search))
-        (report-search search :reuse)
         (multiple-value-bind (discrepancy text)
             (in-phase (search :reuse) (retry-stored search file))
           (let* ((kind (and discrepancy (discrepancy-kind discrepancy)))

@@ -17,10 +17,16 @@
     ((:left-trace :invalid) 3)))
 
 (define-subcommand "replay" (arguments options)
-    ("FILE"
-     "Run a stored discrepancy again, and say whether it comes out the same.")
-  (let ((result (replay (file-argument arguments "replay"))))
-    (write-string (replay-text result))
+    ("FILE [--step]"
+     "Run a stored discrepancy again, both executions side by side; does it come out the same?"
+     (("step") :type boolean :optional t
+      :documentation "stop after each action: Enter goes on, c goes on to the end"))
+  (let* ((step (getf options :step))
+         (*query-io* (if step
+                         (make-two-way-stream *standard-input* *standard-output*)
+                         *query-io*))
+         (result (replay (file-argument arguments "replay") :step (and step t))))
+    (write-string (replay-text result :steps (not step)))
     (verdict-code result)))
 
 (defun call-with-replayed (function arguments command)

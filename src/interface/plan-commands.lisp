@@ -23,27 +23,32 @@
           (property (keyword-argument property))
           (t (usage-problem "A property is missing: --property or --never names it.")))))
 
-(defun verification-code (verification)
-  (ecase (verification-verdict verification)
-    (:verified 0)
-    (:counterexample 1)
-    (:verified-up-to-bounds 3)))
+(defun review-code (review)
+  "Return the exit status of REVIEW: a verdict that is in doubt decides nothing."
+  (multiple-value-bind (verdict doubtful) (discrepancy:review-verdict review)
+    (ecase verdict
+      (:verified (if doubtful 3 0))
+      (:counterexample 1)
+      (:verified-up-to-bounds 3))))
 
 (define-subcommand "verify" (arguments options)
-    ("PLAN [NAME] --domain DOMAIN --property PROPERTY [OPTION ...]"
+    ("PLAN [NAME] --domain DOMAIN --property PROPERTY | --never CONSTRAINT [OPTION ...]"
      "Say whether a plan has a safety property on all paths, in the theory."
      (("domain") :type string :documentation "name of a domain, or its file or folder")
      (("property") :type string
       :documentation "name of a state constraint that always holds, or no-failure, or no-error")
      (("never") :type string :documentation "name of a state constraint that never comes true")
-     (("max-paths") :type integer :documentation "largest number of paths"))
-  (let ((verification (apply #'verify-plan (plan-argument arguments)
-                             :domain (domain-argument options)
-                             :property (property-argument options)
-                             (and (getf options :max-paths)
-                                  (list :max-paths (getf options :max-paths))))))
-    (describe-object verification *standard-output*)
-    (verification-code verification)))
+     (("max-paths") :type integer :documentation "largest number of paths")
+     (("store") :type string
+      :documentation "folder of discrepancies that may cast doubt, or none (discrepancies/)"))
+  (let ((review (apply #'discrepancy:review-plan (plan-argument arguments)
+                       :domain (domain-argument options)
+                       :property (property-argument options)
+                       :store (store-argument options)
+                       (and (getf options :max-paths)
+                            (list :max-paths (getf options :max-paths))))))
+    (write-string (discrepancy:review-text review))
+    (review-code review)))
 
 (define-subcommand "simulate" (arguments options)
     ("PLAN [NAME] --domain DOMAIN | --scene SCENE [OPTION ...]"

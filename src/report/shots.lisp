@@ -75,10 +75,16 @@ base was after each performed designator.  VERDICT is :PASSED, :FAILED or :LEFT.
   "Return the shots for the map of DISCREPANCY, which is in RESULT: its own first."
   (let* ((run (discrepancy:discrepancy-run discrepancy))
          (sample (discrepancy:discrepancy-sample discrepancy))
+         (trace-result (find-if (lambda (trace-result)
+                                  (member discrepancy
+                                          (discrepancy:trace-result-discrepancies trace-result)))
+                                (discrepancy:result-traces result)))
          (others (remove-if (lambda (entry)
                               (or (eq (car entry) run)
                                   (eq (discrepancy:run-sample (car entry)) sample)))
-                            (discrepancy:discrepancy-runs discrepancy))))
+                            (if trace-result
+                                (discrepancy:trace-result-runs trace-result)
+                                (discrepancy:discrepancy-runs discrepancy)))))
     (entries-shots result (discrepancy:discrepancy-trace discrepancy)
                    (discrepancy:discrepancy-execution discrepancy)
                    (cons (cons run (discrepancy:discrepancy-judgement discrepancy)) others))))

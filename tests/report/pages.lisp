@@ -16,10 +16,6 @@
         for position = (search part text :start2 start)
         while position count t))
 
-(defun shows-p (part page)
-  "Return true if PART is in PAGE, a text that is too long for the message of a failed check."
-  (and (search part page) t))
-
 (defun misplaced-tag (page)
   "Return the first end tag in PAGE that does not fit, or tags that are not closed, or NIL."
   (let ((open '()) (position 0))

@@ -32,6 +32,10 @@ and so on."
   (dolist (key keys object)
     (setf object (if (integerp key) (svref object key) (json:get-key object key)))))
 
+(defun shows-p (part page)
+  "Return true if PART is in PAGE, a text that is too long for the message of a failed check."
+  (and (search part page) t))
+
 (test the-json-of-a-result-tells-what-the-result-does
   (let* ((result (found-result))
          (object (json-of result))
@@ -107,3 +111,25 @@ and so on."
 (test what-is-not-recorded-leaves-no-trail
   (df:with-projection (projection (discrepancy:domain-scene (two-regions)))
     (is (null (projection:base-trail projection)))))
+
+;;; The text on results
+
+(defun json-keys (value)
+  "Return the list of the keys of objects in VALUE, but for those that are names of something."
+  (typecase value
+    (string '())
+    (vector (reduce #'union (map 'list #'json-keys value) :initial-value '()))
+    (cons (let ((keys '()))
+            (loop for (key . element) in value
+                  do (pushnew key keys :test #'string=)
+                     (unless (member key '("parameters" "values" "shrunk" "explanation" "sample")
+                                     :test #'string=)
+                       (setf keys (union (json-keys element) keys :test #'string=))))
+            keys))
+    (t '())))
+
+(test the-text-on-results-names-every-key
+  (let ((text (uiop:read-file-string (root-file "docs/results.md"))))
+    (dolist (key (union (json-keys (json-of (found-result))) (json-keys (json-of (certified-result)))
+                        :test #'string=))
+      (is-true (shows-p (format nil "`~a`" key) text) "~s is not in docs/results.md" key))))
