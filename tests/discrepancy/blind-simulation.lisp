@@ -2,8 +2,8 @@
 
 (in-package #:discrepancy-finder.tests)
 
-(def-suite brute-force :in all)
-(in-suite brute-force)
+(def-suite blind-simulation :in all)
+(in-suite blind-simulation)
 
 (defun short-arm-domain ()
   "Return the domain of Example 1 with an arm that reaches 0.5 m."
