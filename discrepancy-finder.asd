@@ -342,7 +342,8 @@ The environment variable CXX names another compiler than g++."))
                (:file "side-by-side") (:file "stepping") (:file "replay") (:file "replay-file")
                (:file "store") (:file "journal") (:file "search")
                (:file "edits") (:file "edits-examples") (:file "edits-conditions")
-               (:file "edits-effects") (:file "edits-outcomes") (:file "edits-check")
+               (:file "edits-effects") (:file "edits-outcomes") (:file "edits-regions")
+               (:file "edits-check")
                (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
                (:file "explain-text")
                (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
@@ -454,6 +455,8 @@ The environment variable CXX names another compiler than g++."))
                (:module "kitchen" :pathname "projection/" :serial t
                 :components ((:file "kitchen") (:file "kitchen-effects")
                              (:file "kitchen-fidelity")))
+               (:module "kitchen-plans" :pathname "plans/" :serial t
+                :components ((:file "bowl-and-spoon")))
                (:module "drawers" :pathname "plans/"
                 :components ((:file "setting-the-table") (:file "looking-into-drawers")))
                (:file "interface") (:file "interface-search")

@@ -172,8 +172,8 @@ samples)."
                                    (settings '((nil 1) (t 1) (nil 3) (t 3))))
   "Print to STREAM how often searches miss a discrepancy by each rule, and after how many samples.
 SETTINGS is a list of (targets traces)."
-  (format stream "misses in % (mean number of samples) by each rule, asked after every sample, delta ~
-                  5 %, ~d replicates~%" replicates)
+  (format stream "misses in % (mean number of samples) by each rule, asked after every sample, ~
+                  delta 5 %, ~d replicates~%" replicates)
   (loop for (targets traces) in settings
         do (format stream "~:[no targets~;targets~], ~d trace~:p~%~28t~{~16@a~}~12@a~%" targets
                    traces (mapcar #'string-downcase *calibration-rules*) "statement")

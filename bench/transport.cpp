@@ -59,7 +59,7 @@ class Kitchen {
     add_fixtures();
     for (int i = 0; i < 3; i++) add_drawer(0.6 * (i - 1));
     add_robot();
-    items.push_back(add(bowl(), at(-2.1, -0.6, 0.8835), 0.4, false));
+    items.push_back(add(bowl(), at(-2.1, -0.6, 0.8835), 0.45, false));
     items.push_back(add(box(0.147, 0.058, 0.224), at(-2.1, -0.2, 0.962, M_PI / 2), 0.4, false));
     items.push_back(add(box(0.064, 0.065, 0.194), at(-2.1, 0.1, 0.947), 1, false));
     items.push_back(add(compound({{0.075, 0, -0.0025, 0.06, 0.042, 0.014},

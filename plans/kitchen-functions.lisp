@@ -2,7 +2,7 @@
 ;;;; an object from the workspace or out of a drawer and brings it to the table.
 ;;;;
 ;;;; The poses are fixed, as in the paper's plans.  The right arm opens and closes the drawers, whose
-;;;; handles are 0.1 m to the right of where the robot stands for them; the left arm carries.
+;;;; handles are 0.1 m to the right of the middle of the robot; the left arm carries.
 ;;;;
 ;;;; A plan's file loads this one by
 ;;;;   (load-plan (merge-pathnames "kitchen-functions.lisp" *load-truename*))
@@ -14,9 +14,9 @@
   (ecase where
     (:workspace (make-pose -1.37 0.14 0 :yaw pi))
     (:table (make-pose -0.3 0 0))
-    (:drawer-1 (make-pose -1.1 -0.7 0 :yaw pi))
-    (:drawer-2 (make-pose -1.1 -0.1 0 :yaw pi))
-    (:drawer-3 (make-pose -1.1 0.5 0 :yaw pi))))
+    (:drawer-1 (make-pose -1.12 -0.7 0 :yaw pi))
+    (:drawer-2 (make-pose -1.12 -0.1 0 :yaw pi))
+    (:drawer-3 (make-pose -1.12 0.5 0 :yaw pi))))
 
 (defun inside-drawer (drawer)
   "Return a point in the middle of an open drawer."

@@ -7,11 +7,12 @@
 (load-plan (merge-pathnames "kitchen-functions.lisp" *load-truename*))
 
 (defun poses-for-looking (drawer)
-  "Return the list of the base poses from which the robot looks into DRAWER."
+  "Return the list of the base poses from which the robot looks into DRAWER: where it opens it, and
+nearer at both sides."
   (let ((y (pose-y (inside-drawer drawer))))
     (list (place-before drawer)
-          (make-pose -1.2 (+ y 0.1) 0 :yaw pi)
-          (make-pose -1.05 (+ y 0.25) 0 :yaw pi))))
+          (make-pose -1.2 (+ y 0.2) 0 :yaw pi)
+          (make-pose -1.2 (- y 0.15) 0 :yaw pi))))
 
 (def-cram-function try-to-take (drawer type ?pose)
   "Try to detect an object of TYPE in DRAWER, which is open, from ?POSE, and to pick it up.  Return

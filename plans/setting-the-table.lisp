@@ -1,5 +1,5 @@
-;;;; Setting the table: bowl, cereal, milk and spoon are carried from the workspace to the table, one
-;;;; by one.  The spoon is in one of three drawers, the others stand on the workspace.
+;;;; Setting the table: bowl, cereal, milk and spoon are carried from the workspace to the table,
+;;;; one by one.  The spoon is in one of three drawers, the others stand on the workspace.
 
 (in-package #:discrepancy-finder-user)
 

@@ -39,7 +39,9 @@
 
 (defun restart-name-p (symbol)
   "The names of restarts are explained where they are offered."
-  (member symbol '(df:continue-search df:next-trace df:accept
+  (member symbol '(df:continue-search df:next-trace df:accept discrepancy:skip-sample
+                   discrepancy:retry-sample discrepancy:abort-trace
+                   discrepancy:finish-replay
                    df:retry-with-timeout df:treat-as-sat plan:rethrow symbolic:stop-exploring)))
 
 (defun documented-p (symbol)

@@ -61,3 +61,11 @@ loaded SYSTEM (a string) from this source tree."
      :output (lambda (stream)
                (loop for line = (read-line stream nil)
                      while line for last = line finally (return last))))))
+
+(defun call-in-new-folder (function)
+  "Call FUNCTION with the name of a new folder, and delete that afterwards."
+  (let ((folder (ensure-directories-exist
+                 (merge-pathnames (format nil "discrepancy-finder-~36r/" (random (expt 36 8)))
+                                  (uiop:temporary-directory)))))
+    (unwind-protect (funcall function (namestring folder))
+      (uiop:delete-directory-tree folder :validate t))))

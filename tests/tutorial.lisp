@@ -73,15 +73,6 @@ after the output of each."
           (push (nreverse (shiftf output '())) outputs)
           (push line output)))))
 
-(defun call-in-new-folder (function)
-  "Call FUNCTION with the name of a new folder, and delete that afterwards."
-  (let ((folder (namestring (ensure-directories-exist
-                             (merge-pathnames (format nil "df-tutorial-~36r/"
-                                                      (random (expt 36 8)))
-                                              (uiop:temporary-directory))))))
-    (unwind-protect (funcall function folder)
-      (uiop:delete-directory-tree (pathname folder) :validate t))))
-
 (defun run-shell (script folder)
   "Run SCRIPT in FOLDER, with the executable on the PATH, and return all that it prints."
   (uiop:run-program (list "env" "-C" folder "DISCREPANCY_FINDER_COMMAND=discrepancy-finder"

@@ -1,5 +1,5 @@
-;;;; The theory of bowl and spoon after two discrepancies: an object can be lost when it is lifted or
-;;;; on the way, and an open drawer blocks the way.
+;;;; The theory of bowl and spoon after two discrepancies: an object can be lost when it is lifted
+;;;; or on the way, and an open drawer blocks the way.
 ;;;;
 ;;;; Whether something is lost is open: the fluent `slips` is in no way determined, at no timepoint,
 ;;;; and effects depend on it.  So an event has one effect or another, as the world has it.  Where

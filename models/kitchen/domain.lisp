@@ -1,8 +1,8 @@
 ;;;; The domain of the plans in the kitchen: how the theory's words map to the scene, and what the
 ;;;; plans' motions and actions mean in the theory.
 ;;;;
-;;;; A place is a square of 20 cm around where the plans stand.  Surfaces and drawers are as large as
-;;;; they are, but for the height: an item that the robot holds over the table, or lifts out of a
+;;;; A place is a square of 20 cm around where the plans stand.  Surfaces and drawers are as large
+;;;; as they are, but for the height: an item that the robot holds over the table, or lifts out of a
 ;;;; drawer, is not on it or in it any more.  Nothing is below the table, so that its region goes on
 ;;;; there; that leaves room for the predictions of the confidence rules.
 ;;;;
@@ -20,9 +20,9 @@ drawer, wherever on it or in it."
   (:region start (box (x -0.8 -0.7) (y -0.05 0.05)))
   (:region before-workspace (box (x -1.47 -1.27) (y 0.04 0.24)))
   (:region before-table (box (x -0.4 -0.2) (y -0.1 0.1)))
-  (:region before-drawer-1 (box (x -1.2 -1) (y -0.8 -0.6)))
-  (:region before-drawer-2 (box (x -1.2 -1) (y -0.2 0.0)))
-  (:region before-drawer-3 (box (x -1.2 -1) (y 0.4 0.6)))
+  (:region before-drawer-1 (box (x -1.22 -1.02) (y -0.8 -0.6)))
+  (:region before-drawer-2 (box (x -1.22 -1.02) (y -0.2 0.0)))
+  (:region before-drawer-3 (box (x -1.22 -1.02) (y 0.4 0.6)))
   (:region workspace (box (x -2.5 -1.9) (y -1 1) (z 0.85 0.98)))
   (:region table (box (x 0.1 0.9) (y -0.8 0.8) (z 0.6 0.89)))
   (:region drawer-1 (box (x -2.4 -1.5) (y -0.85 -0.35) (z 0.58 0.7)))
@@ -32,7 +32,7 @@ drawer, wherever on it or in it."
   (:placement (on bowl ?surface) :body bowl
               :coordinates ((x -2.15 -2.05) (y -0.4 -0.3) (z 0.8835) (yaw -0.5 0.5)))
   (:placement (on cereal ?surface) :body cereal
-              :coordinates ((x -2.15 -2.05) (y 0.27 0.37) (z 0.962) (yaw -0.3 0.3)))
+              :coordinates ((x -2.15 -2.05) (y 0.25 0.33) (z 0.962) (yaw -0.3 0.3)))
   (:placement (on milk ?surface) :body milk
               :coordinates ((x -2.18 -2.1) (y -0.03 0.07) (z 0.947) (yaw -0.3 0.3)))
   (:placement (on spoon ?surface) :body spoon :coordinates ((x 0.2) (y -0.3) (z 0.7645)))

@@ -13,7 +13,8 @@
    (regions :initarg :regions :reader domain-regions :type list
             :documentation "The regions, in order.")
    (observers :initarg :observers :reader domain-observers :type list
-              :documentation "Placements, joint ranges, attachments and computed observers.")
+              :documentation "Placements, joint and coordinate ranges, attachments, computed
+observers.")
    (states :initform (make-hash-table :test #'equal :synchronized t) :reader domain-states
            :documentation "The discrete states that were seen, by the bits of their truth values.")
    (file :initarg :file :initform nil :reader domain-file
@@ -63,6 +64,7 @@ changed.  Signals UNKNOWN-PARAMETER and IMPOSSIBLE-PARAMETER."
   (typecase observer
     (placement (member (placement-body observer) items))
     (attachment (member (attachment-item observer) items))
+    (coordinate-range (member (coordinate-range-body observer) items))
     (computed (intersection (computed-arguments observer) items))))
 
 (defun domain-without-items (domain items)

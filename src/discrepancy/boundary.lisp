@@ -129,11 +129,12 @@ in parts of the range, if it is less than WITHIN; else NIL."
               (setf nearest boundary
                     within distance))))))))
 
-(defun passing-sample (shrinker)
-  "Return a blind sample of the best case of SHRINKER that passes, or NIL."
+(defun passing-sample (shrinker attempts)
+  "Return a blind sample of the best case of SHRINKER that passes, or NIL if none of so many
+ATTEMPTS does."
   (let* ((best (shrinker-best shrinker))
          (content (content-hash (symbolic:trace-text (discrepancy-trace best)))))
-    (loop for index below 20
+    (loop for index below attempts
           for sample = (draw-sample (sample-parameters (discrepancy-sample best))
                                     (discrepancy-seed best) content index)
           when (eq (attempt shrinker :sample sample) :passing) return sample)))
@@ -141,7 +142,7 @@ in parts of the range, if it is less than WITHIN; else NIL."
 (defun boundary-between (shrinker sample)
   "Return the boundary between SAMPLE and one that passes, or NIL; the values that make no
 difference stay as in SAMPLE."
-  (let ((passing (passing-sample shrinker)))
+  (let ((passing (passing-sample shrinker 20)))
     (when passing
       (let* ((numbers (smallest-list (differing-numbers sample passing)
                                      (lambda (numbers)

@@ -96,8 +96,8 @@ truth)."
 
 (defstruct (blind-result (:copier nil))
   "What a blind search came to: the number of SIMULATIONS, the number of initial states that were
-REJECTED because nothing can be like that, the KINDS of all discrepancies as a list of (kind . count), the first DISCREPANCY of a wanted kind
-or NIL, and the SECONDS that it took."
+REJECTED because nothing can be like that, the KINDS of all discrepancies as a list of (kind .
+count), the first DISCREPANCY of a wanted kind or NIL, and the SECONDS that it took."
   (simulations 0 :type (integer 0) :read-only t)
   (rejected 0 :type (integer 0) :read-only t)
   (kinds '() :type list :read-only t)

@@ -14,10 +14,10 @@
   (dolist (clause clauses)
     (unless (and (consp clause)
                  (member (first clause) '(:extends :items :theory :scene :region :placement :joint
-                                          :attachment :computed)))
+                                          :attachment :coordinate :computed)))
       (abstraction-problem name nil "~a was found where one of :extends, :items, :theory, :scene, ~
-                                     :region, :placement, :joint, :attachment, :computed was ~
-                                     expected"
+                                     :region, :placement, :joint, :attachment, :coordinate, ~
+                                     :computed was expected"
                            (ec:formula-text (if (consp clause) (first clause) clause)))))
   (dolist (key '(:extends :items))
     (when (rest (clauses-of key clauses))
@@ -49,6 +49,7 @@
                                   collect (placement-atom observer region)))
                  (joint-range (list (joint-range-atom observer)))
                  (attachment (list (attachment-atom observer)))
+                 (coordinate-range (list (coordinate-range-atom observer)))
                  (computed (list (computed-atom observer))))))
 
 (defun parse-observers (name clauses theory scene regions)
@@ -64,6 +65,10 @@
                                     (cons :attachment
                                           (lambda (clause)
                                             (parse-attachments name clause theory scene)))
+                                    (cons :coordinate
+                                          (lambda (clause)
+                                            (list (parse-coordinate-range name clause theory
+                                                                          scene))))
                                     (cons :computed
                                           (lambda (clause)
                                             (parse-computed name clause theory))))
@@ -135,6 +140,9 @@
   (:attachment (FLUENT term*) :item NAME [:arm NAME])
                               the fluent holds if the robot holds the item (with this arm); terms
                               and names may be variables ?sort: then for each element
+  (:coordinate (FLUENT element*) :body NAME :axis axis :range (min max))
+                              the fluent holds if the coordinate of the body is in [min, max[; it
+                              is observed, and samples are drawn until it is as it has to be
   (:computed (FLUENT term*) FUNCTION)
                               the fluent holds if FUNCTION returns true of the projection and the
                               fluent's arguments; it is observed and not sampled

@@ -12,13 +12,28 @@
   "Return the steps of RUN with the outcomes that they can be in DOMAIN."
   (mapcar (lambda (step) (refreshed-step domain step)) (run-steps run)))
 
+(defun initial-observation (domain run)
+  "Return what was observed at the beginning of RUN, with the fluents of coordinate ranges that
+DOMAIN has and the domain of RUN had not, by the run's sample."
+  (append (run-initial-state run)
+          (loop for observer in (domain-observers domain)
+                for value = (and (coordinate-range-p observer)
+                                 (not (assoc (coordinate-range-atom observer)
+                                             (run-initial-state run) :test #'equal))
+                                 (sample-coordinate (run-sample run)
+                                                    (coordinate-range-body observer)
+                                                    (coordinate-range-axis observer)))
+                when value
+                  collect (cons (coordinate-range-atom observer)
+                                (in-coordinate-range-p observer value)))))
+
 (defun first-divergence (domain run context)
   "Return the first divergence of RUN, of a domain that differs in theory and action bindings only,
 by DOMAIN, or NIL.  CONTEXT is a Z3 context."
   (z3:with-released-terms (context)
     (z3:with-solver (solver context)
       (let ((state (free-state (symbolic:action-theory-ground domain) context
-                               (run-initial-state run))))
+                               (initial-observation domain run))))
         (loop for (nil . proposition) in (ec:initial-conditions state)
               do (z3:solver-assert solver proposition))
         (nth-value 1 (judge-steps domain solver state (refreshed-steps domain run) nil
@@ -49,13 +64,14 @@ edited, a state in which the action can succeed."
       (event-possible-p domain (transition-success transition) context)))
 
 (defun checked-edit (domain parts transition run runs agreed context)
-  "Return the EDIT of PARTS (kind sentences replaced requirements) of DOMAIN, checked against RUNS,
-or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed.  AGREED
-tells how far the theory agrees with RUNS now; RUN, one of RUNS, is that of the discrepancy."
-  (destructuring-bind (kind sentences replaced &optional requirements) parts
+  "Return the EDIT of PARTS (kind sentences replaced requirements ranges) of DOMAIN, checked against
+RUNS, or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed.
+AGREED tells how far the theory agrees with RUNS now; RUN, one of RUNS, is that of the discrepancy."
+  (destructuring-bind (kind sentences replaced &optional requirements ranges) parts
     (flet ((edit (&rest figures)
              (apply #'make-edit :kind kind :sentences sentences :replaced replaced
-                                :requirements requirements :runs (length runs) figures)))
+                                :requirements requirements :ranges ranges
+                                :runs (length runs) figures)))
       (let* ((edited (handler-case (edited-domain domain (edit))
                        (ec:theory-error () (return-from checked-edit nil))))
              (now (if (requirements-possible-p edited (edit) transition context)
@@ -75,6 +91,7 @@ nothing: what is determined comes before what is left open, what is short before
     (+ (ecase (edit-kind edit)
          ((:effect :requirement) 0)
          (:weaken 1000)
+         (:region 1500)
          ((:release :may-fail) 2000)
          (:guess 3000))
        (if (edit-requirements edit)
@@ -92,13 +109,15 @@ says more."
           do (cond ((< one two) (return t))
                    ((> one two) (return nil))))))
 
-(defun edit-parts-for (domain transition runs divergence context)
-  "Return the parts (kind sentences replaced requirements) of edits for DIVERGENCE at TRANSITION,
-best first; RUNS are those to learn from."
+(defun edit-parts-for (domain transition run runs agreed divergence context)
+  "Return the parts (kind sentences replaced requirements ranges) of edits for DIVERGENCE of RUN at
+TRANSITION, best first; RUNS are those to learn from, and AGREED tells how far the theory agrees
+with them."
   (let ((transitions (loop for run in runs append (remove nil (run-transitions domain run)))))
-    (if (eq (divergence-kind divergence) :outcome)
-        (outcome-edits domain transitions transition context)
-        (state-edits domain transitions transition divergence))))
+    (append (region-edits domain transition divergence run runs agreed)
+            (if (eq (divergence-kind divergence) :outcome)
+                (outcome-edits domain transitions transition context)
+                (state-edits domain transitions transition divergence)))))
 
 (defun edits-for-run (domain run runs context)
   "Return the checked edits of DOMAIN for the first divergence of RUN, one of RUNS, best first."
@@ -109,8 +128,8 @@ best first; RUNS are those to learn from."
       (let ((agreed (loop for run in runs collect (agreement domain run context))))
         (stable-sort
          (loop with checked = 0
-               for parts in (remove-duplicates (edit-parts-for domain transition runs divergence
-                                                               context)
+               for parts in (remove-duplicates (edit-parts-for domain transition run runs agreed
+                                                               divergence context)
                                                :test #'equalp :from-end t)
                for edit = (checked-edit domain parts transition run runs agreed context)
                when edit
@@ -128,12 +147,24 @@ best first; RUNS are those to learn from."
                   (slot-value discrepancy 'runs)
                   '())))
 
-(defun candidate-edits (discrepancy &key (runs (known-runs discrepancy)))
+(defun without-guesses (edits)
+  "Return EDITS, best first, without the guesses where something better removes the discrepancy and
+contradicts nothing; else with the best two."
+  (flet ((guess-p (edit) (eq (edit-kind edit) :guess)))
+    (if (some (lambda (edit)
+                (and (not (guess-p edit)) (edit-removes-p edit) (zerop (edit-contradicted edit))))
+              edits)
+        (remove-if #'guess-p edits)
+        (let ((more (nthcdr 2 (remove-if-not #'guess-p edits))))
+          (remove-if (lambda (edit) (member edit more)) edits)))))
+
+(defun candidate-edits (discrepancy &key (runs (known-runs discrepancy)) guesses)
   "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
 checked by judging again RUNS, a list of valid runs or of (RUN . JUDGEMENT) in the same domain, and
 the run of DISCREPANCY itself.  By default RUNS are those of the same trace that the search has
-made."
+made.  With GUESSES preconditions of what has succeeded in no run are not left out."
   (let* ((run (discrepancy-run discrepancy))
-         (runs (adjoin run (plain-runs runs))))
-    (z3:with-context (context)
-      (edits-for-run (discrepancy-domain discrepancy) run runs context))))
+         (runs (adjoin run (plain-runs runs)))
+         (edits (z3:with-context (context)
+                  (edits-for-run (discrepancy-domain discrepancy) run runs context))))
+    (if guesses edits (without-guesses edits))))

@@ -8,8 +8,8 @@
 
 (defstruct (transition (:copier nil))
   "What was seen of one step: the states BEFORE and AFTER as tables of truth values, EVENT (ground,
-or NIL), the event SUCCESS that the binding of CLASS and TYPE has on success, and the OUTCOMES (names)
-of the binding that the seen one can be."
+or NIL), the event SUCCESS that the binding of CLASS and TYPE has on success, and the OUTCOMES
+(names) of the binding that the seen one can be."
   (class nil :type keyword :read-only t)
   (type nil :type keyword :read-only t)
   (before nil :type hash-table :read-only t)
@@ -176,7 +176,8 @@ binds, in the observed state TABLE."
                              (cdr (assoc (second parts) bindings)))))
               (:exists
                (let ((variable (first (first parts))))
-                 (decided (loop for element in (ec:sort-elements theory (sort-of-variable theory variable))
+                 (decided (loop for element in (ec:sort-elements
+                                                theory (sort-of-variable theory variable))
                                 collect (truth (second parts) (acons variable element bindings)))
                           t)))
               (t (multiple-value-bind (truth known)

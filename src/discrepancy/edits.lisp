@@ -31,14 +31,16 @@ one of FAILURES.  MODE is as for SYMBOLIC:REVISED-BINDING."
                              (eq mode :instead) (ec:formula-text formula) failures))))))
 
 (defstruct (edit (:copier nil))
-  "A change of a theory.  KIND is one of :EFFECT, :RELEASE, :WEAKEN, :REQUIREMENT, :GUESS and
-:MAY-FAIL, what it is about.  SENTENCES is a list of (name formula), REPLACED a list of names of
-axioms, REQUIREMENTS a list of requirements.  CONTRADICTED of RUNS runs, the failing ones among
-them, are further from the edited theory than from the old one."
+  "A change of a theory.  KIND is one of :EFFECT, :RELEASE, :WEAKEN, :REQUIREMENT, :GUESS,
+:MAY-FAIL and :REGION, what it is about.  SENTENCES is a list of (name formula), REPLACED a list of
+names of axioms, REQUIREMENTS a list of requirements, RANGES a list of coordinate ranges, whose
+fluents are new.  CONTRADICTED of the RUNS runs that it was checked against agreed further with the
+theory before."
   (kind :effect :type keyword :read-only t)
   (sentences '() :type list :read-only t)
   (replaced '() :type list :read-only t)
   (requirements '() :type list :read-only t)
+  (ranges '() :type list :read-only t)
   (removes-p nil :type boolean :read-only t)
   (contradicted 0 :type (integer 0) :read-only t)
   (runs 0 :type (integer 0) :read-only t))
@@ -46,24 +48,37 @@ them, are further from the edited theory than from the old one."
 (setf (documentation 'edit-kind 'function)
       "Return what an edit is about: :EFFECT (sentences of what actions change), :RELEASE (the
 change is left open), :WEAKEN (a sentence is taken out), :REQUIREMENT (a precondition), :GUESS (a
-precondition of what has never succeeded in the runs), :MAY-FAIL (an action may fail at any time)."
+precondition of what has never succeeded in the runs), :MAY-FAIL (an action may fail at any time),
+:REGION (a region is refined: a new fluent tells whether a coordinate lies in a range, and the
+effect or the precondition depends on it)."
       (documentation 'edit-sentences 'function)
       "Return the sentences that an edit adds to the theory: a list of (name formula)."
       (documentation 'edit-replaced 'function)
       "Return the names of the axioms that an edit takes out of the theory, a list of keywords."
       (documentation 'edit-requirements 'function)
       "Return what an edit changes in the action bindings: a list of REQUIREMENTs."
+      (documentation 'edit-ranges 'function)
+      "Return the coordinate ranges whose fluents an edit adds: a list."
       (documentation 'edit-removes-p 'function)
-      "Return true if an edit removes the discrepancy: theory and simulation no longer part where they
-did."
+      "Return true if an edit removes the discrepancy: theory and simulation no longer part where
+they did."
       (documentation 'edit-contradicted 'function)
       "Return the number of runs with which the theory agrees longer without the edit."
       (documentation 'edit-runs 'function)
       "Return the number of runs that an edit was checked against.")
 
+(defun range-text (range)
+  "Return what is added for the new fluent of the coordinate range RANGE, as a clause."
+  (format nil "add the fluent ~a, in the abstraction (:coordinate ~:*~a :body ~(~a :axis ~a~) ~
+               :range (~,4f ~,4f))"
+          (ec:atom-text (coordinate-range-atom range)) (coordinate-range-body range)
+          (coordinate-range-axis range) (coordinate-range-min range)
+          (coordinate-range-max range)))
+
 (defun edit-parts (edit)
   "Return the list of the parts of EDIT, each as a clause."
-  (append (loop for name in (edit-replaced edit)
+  (append (mapcar #'range-text (edit-ranges edit))
+          (loop for name in (edit-replaced edit)
                 unless (find name (edit-sentences edit) :key #'first)
                   collect (format nil "remove the axiom ~a from the theory" (ec:name-text name)))
           (loop for (name formula) in (edit-sentences edit)
@@ -91,7 +106,8 @@ told by EDIT-REMOVES-P, EDIT-CONTRADICTED and EDIT-RUNS."
 
 (defun edited-theory (theory edit)
   "Return THEORY changed by EDIT: a new theory that is not registered.  Signals THEORY-ERROR."
-  (ec:revised-theory theory :without (edit-replaced edit) :with (edit-sentences edit)))
+  (ec:revised-theory theory :without (edit-replaced edit) :with (edit-sentences edit)
+                            :fluents (mapcar #'coordinate-range-atom (edit-ranges edit))))
 
 (defun requirement-for-p (requirement binding)
   (and (eq (requirement-class requirement) (symbolic:action-binding-class binding))
@@ -120,6 +136,7 @@ registered.  Signals THEORY-ERROR."
                                            (edit-requirements edit))
                  :documentation (domain-documentation domain)
                  :scene (domain-scene domain) :regions (domain-regions domain)
-                 :observers (domain-observers domain) :file (domain-file domain)
+                 :observers (append (domain-observers domain) (edit-ranges edit))
+                 :file (domain-file domain)
                  :extended-files (domain-extended-files domain)
                  :clauses (domain-clauses domain)))

@@ -49,7 +49,9 @@ is :TRACE-DONE, :LEFT-TRACE, :FINISHED, :TOO-MANY-STEPS or the class of an unhan
   (hash 0 :type (unsigned-byte 64) :read-only t)
   (seconds 0d0 :type double-float :read-only t))
 
-(setf (documentation 'run-validity 'function)
+(setf (documentation 'run-sample 'function)
+      "Return the SAMPLE from which a run begins."
+      (documentation 'run-validity 'function)
       "Return :VALID, or a sentence that says why the sample of a run is not valid."
       (documentation 'run-ending 'function)
       "Return how a run ended: :TRACE-DONE, :LEFT-TRACE, :FINISHED, :TOO-MANY-STEPS, :NOT-RUN or

@@ -12,11 +12,13 @@
 (defstruct (influence (:copier nil))
   "That PARAMETERS, changed together and nothing else, decide: with the values FAILING, nearest to
 the boundary, the discrepancy shows, with AGREEING theory and simulation agree.  HERE are the values
-in the discrepancy's own sample."
+in the discrepancy's own sample.  SEEN is what the search had seen of a single parameter: its range
+in the runs that agree and in those that do not, each (count least greatest), or NIL."
   (parameters '() :type list :read-only t)
   (failing '() :type list :read-only t)
   (agreeing '() :type list :read-only t)
-  (here '() :type list :read-only t))
+  (here '() :type list :read-only t)
+  (seen '() :type list :read-only t))
 
 (setf (documentation 'influence-parameters 'function)
       "Return the list of the PARAMETERs that decide together, as a rule one."
@@ -36,6 +38,8 @@ simulation agree.")
 (defclass prober ()
   ((discrepancy :initarg :discrepancy :reader prober-discrepancy)
    (context :initarg :context :reader prober-context :documentation "A Z3 context.")
+   (seen :initarg :seen :initform '() :reader prober-seen
+         :documentation "The (run . judgement) of the search.")
    (left :initarg :left :accessor prober-left :documentation "The number of runs left.")
    (deadline :initarg :deadline :reader prober-deadline
              :documentation "The time (s) when there are no more runs, or NIL.")
@@ -158,6 +162,20 @@ to agree; all of NUMBERS are enough.  No part of it can be left out, as far as t
 (defparameter *halvings* 6
   "So often the way between a failing and an agreeing value is halved.")
 
+(defun seen-ranges (prober number)
+  "Return the ranges of coordinate NUMBER in the runs of the search that agree and in those that do
+not, each (count least greatest), or NIL if there are none of either."
+  (let ((agreeing '()) (failing '()))
+    (loop for (run . judgement) in (prober-seen prober)
+          when (run-sample run)
+            do (let ((value (aref (sample-values (run-sample run)) number)))
+                 (if (agreeing-p judgement)
+                     (push value agreeing)
+                     (push value failing))))
+    (and agreeing failing
+         (loop for values in (list agreeing failing)
+               collect (list (length values) (reduce #'min values) (reduce #'max values))))))
+
 (defun boundary-influence (prober numbers others)
   "Return the influence of the coordinates with NUMBERS, which agree at the values in OTHERS."
   (let ((fails 0d0) (agrees 1d0))
@@ -173,6 +191,7 @@ to agree; all of NUMBERS are enough.  No part of it can be left out, as far as t
                (loop for number in numbers collect (aref values number)))))
       (make-influence :parameters (loop for number in numbers
                                         collect (nth number (prober-parameters prober)))
+                      :seen (and (null (rest numbers)) (seen-ranges prober (first numbers)))
                       :here (values-at 0) :failing (values-at fails)
                       :agreeing (values-at agrees)))))
 
@@ -234,7 +253,8 @@ that were made to find them, and the number of all these runs, at most MAX-RUNS,
 MAX-SECONDS.  RUNS is a list of (run . judgement) of valid runs of the same trace, CONTEXT a Z3
 context."
   (let* ((prober (make-instance 'prober
-                                :discrepancy discrepancy :context context :left max-runs
+                                :discrepancy discrepancy :context context :seen runs
+                                :left max-runs
                                 :deadline (and max-seconds
                                                (+ (foreign:monotonic-seconds) max-seconds))))
          (numbers (stable-sort (free-numbers prober) #'>

@@ -81,9 +81,16 @@ observed-in-the-run-3)\"."
   "Return the sentences why the theory does not allow the step of EXPLANATION to end as it did."
   (let ((ending (explanation-ending explanation))
         (outcomes (explanation-outcomes explanation)))
-    (cond ((null ending)
-           (list (format nil "The action binding has no such outcome: it has ~{~(~a~)~^, ~}."
-                         outcomes)))
+    (cond (outcomes
+           (append
+            (list (format nil "The action binding has no such outcome: it has ~{~(~a~)~^, ~}."
+                          outcomes))
+            (and ending
+                 (list (format nil "By the action binding it succeeds where ~a, as it was there."
+                               (explanation-condition explanation))))
+            (and ending (claim-axioms ending) (derivation-texts ending))
+            (and ending (origin-texts ending))))
+          ((null ending) '("No reason was found."))
           (t (append
               (and (explanation-condition explanation)
                    (list (format nil "By the action binding it can end so only where ~a."
@@ -98,6 +105,19 @@ observed-in-the-run-3)\"."
   "Return the text of VALUE of PARAMETER with its unit."
   (subseq (value-text parameter value) (+ 3 (length (parameter-name parameter)))))
 
+(defun seen-text (influence)
+  "Return what the search had seen of the parameter of INFLUENCE, as a clause, or NIL."
+  (let ((parameter (first (influence-parameters influence))))
+    (and (influence-seen influence)
+         (format nil "~{~a~^, ~}"
+                 (loop for (count least greatest) in (influence-seen influence)
+                       for agrees = t then nil
+                       collect (format nil "in the ~d run~:p that ~:[did not~;agreed~] it was ~
+                                            ~:[from ~a to ~;~*~]~a"
+                                       count agrees (= least greatest)
+                                       (quantity-text parameter least)
+                                       (quantity-text parameter greatest)))))))
+
 (defun influence-text (influence)
   "Return what INFLUENCE says, as a sentence."
   (let ((parameters (influence-parameters influence)))
@@ -110,9 +130,9 @@ observed-in-the-run-3)\"."
               (loop for values in (list (influence-here influence) (influence-failing influence)
                                         (influence-agreeing influence))
                     collect (quantity-text (first parameters) (first values)))
-            (format nil "~a, ~a here: ~a ~:[fails still~;fails~], ~a agrees."
+            (format nil "~a, ~a here: ~a ~:[fails still~;fails~], ~a agrees~@[; ~a~]."
                     (parameter-name (first parameters)) here failing (string= here failing)
-                    agreeing))))))
+                    agreeing (seen-text influence)))))))
 
 (defun runs-text (explanation)
   (format nil "Of the ~d run~:p of this trace ~d agree~p; ~d further run~:p ~:*~[were~;was~:;were~] ~

@@ -252,3 +252,18 @@ has no such outcome."
          (multiple-value-bind (explanation moment)
              (outcome-explanation domain moments run number outcome)
            (claim-of domain moments run explanation moment '())))))
+
+(defun requirement-claim (domain moments run number outcome)
+  "Return the claim that OUTCOME, a success, was possible in step NUMBER of RUN: that its condition
+held; or NIL if it has none or that does not follow."
+  (let* ((formula (symbolic:outcome-condition outcome))
+         (form (and (consp formula)
+                    (ec:formula-form (symbolic:action-theory-ground domain) formula number))))
+    (and form
+         (multiple-value-bind (explanation moment)
+             (call-with-pieces (lambda (moment)
+                                 (ec:why (piece-of-run domain moment run number) form
+                                         :horizon (list (moment-time moment) (1+ number))))
+                               moments number)
+           (and explanation
+                (claim-of domain moments run explanation moment '()))))))

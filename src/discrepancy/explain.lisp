@@ -11,8 +11,9 @@
 (defstruct (explanation (:copier nil))
   "Why theory and simulation part in a discrepancy at STEP, counted from 0.  CLAIMS are what the
 theory says after the step, or would have said; ENDING is its claim that the step cannot have ended
-as it did, with the CONDITION under which it could, a clause; both are NIL where the states differ or
-the action binding has no such outcome, of which the names are OUTCOMES."
+as it did, with the CONDITION under which it could, a clause.  Where the action binding has no such
+outcome OUTCOMES are the names of those that it has, and ENDING is the claim that the CONDITION of
+success held.  Where the states differ there is no ENDING."
   (step 0 :type (integer 0) :read-only t)
   (action "" :type string :read-only t)
   (event '() :type list :read-only t)
@@ -109,16 +110,20 @@ RUN has followed it so far, else that of success."
          (moments (run-moments domain run trace number))
          (event (if outcome-p (expected-event domain run trace number) (seen-event step)))
          (claims (state-claims domain moments run number event (divergence-fluents divergence)))
-         (ending (and outcome-p (outcome-claim domain moments run number))))
+         (seen (first (run-step-candidates step)))
+         (outcomes (and outcome-p (null seen)
+                        (symbolic:action-outcomes domain (run-step-designator step))))
+         (success (find :success outcomes :key #'symbolic:outcome-name))
+         (ending (and outcome-p
+                      (if seen
+                          (outcome-claim domain moments run number)
+                          (requirement-claim domain moments run number success)))))
     (list :step number :action (princ-to-string (run-step-designator step))
           :event event :kind (divergence-kind divergence)
           :outcome (or (run-step-failure step) "success")
-          :outcomes (and outcome-p (null (run-step-candidates step))
-                         (mapcar #'symbolic:outcome-name
-                                 (symbolic:action-outcomes domain (run-step-designator step))))
+          :outcomes (mapcar #'symbolic:outcome-name outcomes)
           :claims claims :ending ending
-          :condition (and outcome-p (run-step-candidates step)
-                          (condition-text domain (first (run-step-candidates step))))
+          :condition (and outcome-p (condition-text domain (or seen success)))
           :grounds (remove-duplicates
                     (if outcome-p
                         (cons (binding-ground step) (and ending (claim-grounds ending)))

@@ -27,16 +27,21 @@ the journal is replaced by the second one."
     (when (and (discrepancy-confirmed-p discrepancy) (journaled-p run))
       (setf (discrepancy-run discrepancy) again))))
 
+(defun remaining-time (search)
+  "Return the arguments that keep a phase of SEARCH within the time that is left of its limit."
+  (let ((limit (search-time-limit search)))
+    (and limit (list :max-seconds (max 0 (- limit (search-seconds search)))))))
+
 (defun examine-find (search discrepancy)
-  "Shrink, explain and store DISCREPANCY as far as SEARCH wants that."
-  (when (search-shrinks search)
-    (report-search search :shrink)
+  "Shrink, explain and store DISCREPANCY as far as SEARCH wants that; when it is to end, store."
+  (when (and (search-shrinks search) (not **stop-requested**))
     (setf (discrepancy-shrunk discrepancy)
-          (in-phase (search :shrink) (shrink-discrepancy discrepancy))))
-  (when (search-explains search)
-    (report-search search :explain)
+          (in-phase (search :shrink)
+            (apply #'shrink-discrepancy discrepancy (remaining-time search)))))
+  (when (and (search-explains search) (not **stop-requested**))
     (setf (discrepancy-explanation discrepancy)
-          (in-phase (search :explain) (explain-discrepancy discrepancy))))
+          (in-phase (search :explain)
+            (apply #'explain-discrepancy discrepancy (remaining-time search)))))
   (when (and (search-store search) (not (discrepancy-file discrepancy)))
     (in-phase (search :store) (store-discrepancy discrepancy (search-store search)))))
 
@@ -75,9 +80,10 @@ the journal is replaced by the second one."
 (defun note-new-kind (trace-search discrepancy)
   "Examine and keep DISCREPANCY; conclude if that is what is wanted."
   (let ((search (trace-search-search trace-search)))
-    (confirm-find search discrepancy)
+    ;; What is kept at once stays if the search is ended meanwhile.
     (setf (discrepancy-runs discrepancy) (reverse (trace-search-runs trace-search)))
     (push discrepancy (trace-search-discrepancies trace-search))
+    (confirm-find search discrepancy)
     (examine-find search discrepancy)
     (ecase (what-next search discrepancy)
       (:continue nil)

@@ -1,8 +1,9 @@
 ;;;; Observers: how fluents are seen in a projection.
 ;;;;
 ;;;; A PLACEMENT says that a body's pose lies in a region, a JOINT that a joint's position lies in a
-;;;; range, an ATTACHMENT that the robot holds an item, and a COMPUTED observer asks a function.
-;;;; The first two can also be sampled: they say where a body or a joint is if the fluent holds.
+;;;; range, an ATTACHMENT that the robot holds an item, a COORDINATE that one coordinate of a body
+;;;; lies in a range, and a COMPUTED observer asks a function.  The first two can also be sampled:
+;;;; they say where a body or a joint is if the fluent holds.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -33,6 +34,14 @@ holds, or NIL."
   (item nil :type keyword :read-only t)
   (arm nil :type (or null keyword) :read-only t))
 
+(defstruct (coordinate-range (:copier nil))
+  "The ground fluent ATOM holds if the coordinate AXIS of BODY is in [MIN, MAX[."
+  (atom '() :type list :read-only t)
+  (body nil :type keyword :read-only t)
+  (axis nil :type keyword :read-only t)
+  (min 0d0 :type double-float :read-only t)
+  (max 0d0 :type double-float :read-only t))
+
 (defstruct (computed (:copier nil))
   "The ground fluent ATOM holds if FUNCTION returns true of the projection and ARGUMENTS."
   (atom '() :type list :read-only t)
@@ -45,6 +54,10 @@ holds, or NIL."
     (setf (nth (placement-place placement) atom) (region-name region))
     atom))
 
+(defun in-coordinate-range-p (range value)
+  "Return true if VALUE (m or rad) is one for which the fluent of RANGE holds."
+  (and (<= (coordinate-range-min range) value) (< value (coordinate-range-max range))))
+
 (defgeneric observe (observer projection)
   (:documentation "Return the list of (atom . truth) that OBSERVER sees in PROJECTION.")
   (:method ((placement placement) projection)
@@ -55,6 +68,10 @@ holds, or NIL."
     (let ((position (projection:observed-joint projection (joint-range-joint range))))
       (list (cons (joint-range-atom range)
                   (<= (joint-range-min range) position (joint-range-max range))))))
+  (:method ((range coordinate-range) projection)
+    (let ((value (coordinate (projection:observed-pose projection (coordinate-range-body range))
+                             (coordinate-range-axis range))))
+      (list (cons (coordinate-range-atom range) (in-coordinate-range-p range value)))))
   (:method ((attachment attachment) projection)
     (list (cons (attachment-atom attachment)
                 (loop for (arm . item) in (projection:held-items projection)

@@ -83,8 +83,8 @@ search, replay.")
    #:recorded-action #:recorded-action-text #:discrepancy-actions #:discrepancy-left-out
    ;; candidate edits of the theory
    #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
-   #:edit-requirements #:edit-removes-p #:edit-contradicted #:edit-runs #:edited-theory
-   #:edited-domain
+   #:edit-requirements #:edit-ranges #:edit-removes-p #:edit-contradicted #:edit-runs
+   #:edited-theory #:edited-domain
    ;; refinement
    #:refine-theory #:refinement #:refinement-domain #:refinement-initial-domain
    #:refinement-steps #:refinement-status #:refinement-reason #:refinement-simulations

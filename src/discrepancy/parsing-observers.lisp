@@ -99,6 +99,25 @@
       (make-joint-range :atom atom :joint joint :min (first range) :max (second range)
                         :otherwise otherwise))))
 
+;;; Coordinates
+
+(defun parse-coordinate-range (name clause theory scene)
+  (source:destructuring-or (pattern &key body axis range) (rest clause)
+      (abstraction-problem name clause "(:coordinate (fluent) :body name :axis axis :range (min ~
+                                        max)) was expected")
+    (let ((axis (and axis (symbolp axis) (ec:name-keyword axis))))
+      (unless (assoc axis *axes*)
+        (abstraction-problem name clause ":axis is needed, one of x, y, z, yaw"))
+      (unless (and body (symbolp body))
+        (abstraction-problem name clause ":body is needed, a name"))
+      (handler-case (projection:check-movable scene body)
+        (projection:unknown-body ()
+          (abstraction-problem name clause "the scene has no robot and no item ~a"
+                               (ec:name-text body))))
+      (destructuring-bind (min max) (parse-range name clause range)
+        (make-coordinate-range :atom (parse-ground name clause pattern theory)
+                               :body (ec:name-keyword body) :axis axis :min min :max max)))))
+
 ;;; Attachments and computed fluents
 
 (defun bound-name (term bindings)

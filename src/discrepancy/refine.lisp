@@ -62,11 +62,16 @@ their traces are certified, else :UNDECIDED, for REASON."
   "Return true if EDIT leaves nothing open that was determined."
   (not (member (edit-kind edit) '(:release :may-fail))))
 
+(defun same-words-p (edit)
+  "Return true if EDIT adds no fluent to the theory."
+  (null (edit-ranges edit)))
+
 (defun chosen-edit (edits)
-  "Return the edit to apply: the best one of EDITS that removes the discrepancy and contradicts no
-run, what leaves nothing open first; or NIL."
+  "Return the edit to apply: the best one of EDITS that removes the discrepancy, contradicts no run
+and adds no fluent, what leaves nothing open first; or NIL."
   (let ((good (remove-if-not (lambda (edit)
-                               (and (edit-removes-p edit) (zerop (edit-contradicted edit))))
+                               (and (edit-removes-p edit) (zerop (edit-contradicted edit))
+                                    (same-words-p edit)))
                              edits)))
     (or (find-if #'determined-p good) (first good))))
 
@@ -94,7 +99,8 @@ NIL, and the list of the results."
 (defun apply-best-edit (refining discrepancy)
   "Change the domain of REFINING by the best edit for DISCREPANCY, and note that.  Return true
 unless there is none."
-  (let* ((edits (candidate-edits discrepancy :runs (reverse (refining-runs refining))))
+  (let* ((edits (candidate-edits discrepancy :guesses t
+                                             :runs (reverse (refining-runs refining))))
          (edit (chosen-edit edits)))
     (push (make-refinement-step :discrepancy discrepancy :edit edit
                                 :alternatives (remove edit edits)

@@ -4,8 +4,8 @@
 ;;;; trace, the sample's numbers, and a hash of the bits of the final state; for one that was shrunk
 ;;;; also the actions that are performed in the place of the plan, and the items that are left out.
 ;;;; REPLAY runs it again, in any process, and tells "same bits" from "same verdict, other bits" and
-;;;; "other verdict".  Reading a file evaluates nothing, and a file that is not right in every part is
-;;;; refused.
+;;;; "other verdict".  Reading a file evaluates nothing, and a file that is not right in every part
+;;;; is refused.
 
 (in-package #:discrepancy-finder.discrepancy)
 

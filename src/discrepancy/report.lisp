@@ -140,8 +140,8 @@ and simulation part, both final states, and how COMMAND replays it."
   "Return a text that tells where the time of RESULT went."
   (let* ((symbolic (result-symbolic-seconds result))
          (simulation (result-simulation-seconds result)))
-    (format nil "~,3f s in symbolic execution, ~,3f s in simulation, ~,3f s in all (~,3f s of it in ~
-                 Z3)"
+    (format nil "~,3f s in symbolic execution, ~,3f s in simulation, ~,3f s in all (~,3f s of it ~
+                 in Z3)"
             symbolic simulation (result-seconds result) (result-solver-seconds result))))
 
 (defun extra-simulations-text (result)

@@ -108,13 +108,14 @@ the order in which they were made, the discrepancy's own last; at most 1000."
 
 (defun intended-event (discrepancy number designator)
   "Return the event that the trace of DISCREPANCY has for DESIGNATOR at step NUMBER, or NIL; where
-there is no trace, that of the action binding."
+there is no trace, that of the action binding.  The trace has designators of the same type, perhaps
+with less in them: what a run has detected has a pose."
   (let ((trace (discrepancy-trace discrepancy)))
     (if trace
         (let ((expected (nth number (symbolic:trace-steps trace))))
           (and expected
-               (string= (princ-to-string designator)
-                        (princ-to-string (symbolic:step-designator expected)))
+               (eq (designator-type-of designator)
+                   (designator-type-of (symbolic:step-designator expected)))
                (symbolic:step-event expected)))
         (some #'symbolic:outcome-event
               (symbolic:action-outcomes (discrepancy-domain discrepancy) designator)))))

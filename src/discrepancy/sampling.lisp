@@ -61,6 +61,8 @@ NIL if it was not drawn."
 
 (setf (documentation 'sample-index 'function)
       "Return the number of a sample, counted from 0, or NIL if it was not drawn."
+      (documentation 'sample-parameters 'function)
+      "Return the list of the PARAMETERs of a sample."
       (documentation 'sample-values 'function)
       "Return the vector of the values of a sample (m, rad), in the order of its parameters.")
 

@@ -54,6 +54,9 @@
          (simulations (meter-simulations meter))
          (simulation-seconds (meter-seconds meter))
          (start (foreign:monotonic-seconds)))
+    ;; The progress of those two is told after each sample.
+    (unless (member name '(:generate :target))
+      (report-search search name))
     (unwind-protect (with-meter (meter) (funcall function))
       (incf (phase-seconds phase) (- (foreign:monotonic-seconds) start))
       (incf (phase-simulations phase) (- (meter-simulations meter) simulations))

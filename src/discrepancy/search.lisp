@@ -217,8 +217,8 @@ return a SEARCH-RESULT.
   RESUME          NIL, or the file of a journal, made if need be: what a search with the same
                   arguments but for budgets has run is taken from there
   SHRINK, EXPLAIN true: make a discrepancy smaller, and explain it
-  PROGRESS        NIL, or a function that is called after each simulation with the keyword
-                  arguments :PHASE (its name), :TRACE (its number, from 1), :SIMULATIONS,
+  PROGRESS        NIL, or a function that is called after each sample, and where another phase
+                  begins, with the keyword arguments :PHASE (its name), :TRACE (its number, from 1), :SIMULATIONS,
                   :REJECTED (samples of this trace), :DISCREPANCIES (kinds), :SECONDS and
                   :VERDICT (of the confidence rule, or NIL)
   PARAMETERS      a property list of scene parameters that override the scene's

@@ -20,6 +20,8 @@
    (runs :initform 0 :accessor shrinker-runs)
    (exhausted :initform nil :accessor shrinker-exhausted
               :documentation "What was used up, as a text, or NIL.")
+   (witnesses :initform '() :accessor shrinker-witnesses
+              :documentation "Samples that pass and have to go on passing.")
    (known :initform (make-hash-table :test 'equal) :reader shrinker-known
           :documentation "What came of the cases that were run."))
   (:documentation "The shrinking of a discrepancy in progress."))
@@ -115,6 +117,37 @@ what came of it, as the head of this file says, and the discrepancy if it is the
           ((exhausted-p shrinker) :unknown)
           (t (values-list (setf (gethash key (shrinker-known shrinker))
                                 (multiple-value-list (judged-case shrinker case))))))))
+
+(defun restricted-sample (sample parameters)
+  "Return SAMPLE for PARAMETERS, which are some of its own."
+  (make-sample (sample-index sample) parameters
+               (coerce (loop for parameter in parameters
+                             collect (loop for own in (sample-parameters sample)
+                                           for value across (sample-values sample)
+                                           when (string= (parameter-name own)
+                                                         (parameter-name parameter))
+                                             return value))
+                       '(simple-array double-float (*)))))
+
+(defun witnesses-pass-p (shrinker discrepancy)
+  "Return true if the witnesses of SHRINKER pass in the case of DISCREPANCY."
+  (loop with parameters = (sample-parameters (discrepancy-sample discrepancy))
+        for witness in (shrinker-witnesses shrinker)
+        always (eq :passing
+                   (attempt shrinker
+                            :domain (discrepancy-domain discrepancy)
+                            :trace (discrepancy-trace discrepancy)
+                            :actions (discrepancy-actions discrepancy)
+                            :left-out (discrepancy-left-out discrepancy)
+                            :sample (restricted-sample witness parameters)))))
+
+(defun improve-with-witnesses (shrinker &rest changes)
+  "Attempt CHANGES, which leave something out; if the discrepancy is the same, and what passed with
+the whole still passes, make it the best case and return true."
+  (multiple-value-bind (came-of-it smaller) (apply #'attempt shrinker changes)
+    (when (and (eq came-of-it :same) (witnesses-pass-p shrinker smaller))
+      (setf (shrinker-best shrinker) smaller)
+      t)))
 
 (defun improve (shrinker &rest changes)
   "Attempt CHANGES; if the discrepancy is the same, make it the best case and return true."

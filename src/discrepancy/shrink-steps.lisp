@@ -3,8 +3,10 @@
 ;;;; What follows after theory and simulation have parted is left out first.  Then the actions are
 ;;;; performed without the plan, and those that the discrepancy does not need are left out.  The
 ;;;; theory, which costs nothing, is asked first: it says which actions are possible without others,
-;;;; and which the divergent fluents need.  Simulation has the last word.  Items that no action
-;;;; mentions any more are left out of the world; what the theory says of them is then unobserved.
+;;;; and which the divergent fluents need.  Simulation has the last word: the discrepancy must stay,
+;;;; and samples that passed with all actions, the WITNESSES, must still pass, or else the discrepancy
+;;;; might be another one, which the missing actions have prevented.  Items that no action mentions
+;;;; any more are left out of the world; what the theory says of them is then unobserved.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -81,7 +83,8 @@ divergence."
 true if it does."
   (let ((trace (short-trace (shrinker-best shrinker) steps)))
     (and trace
-         (improve shrinker :trace trace :actions (mapcar #'short-step-action steps)))))
+         (improve-with-witnesses shrinker
+                                 :trace trace :actions (mapcar #'short-step-action steps)))))
 
 (defun shrink-actions (shrinker)
   "Leave out actions of the best case of SHRINKER."
@@ -127,27 +130,17 @@ true if it does."
                      (mentions-p spoken-of (projection:scene-item-type scene item)))
             collect item)))
 
-(defun restricted-sample (sample parameters)
-  "Return SAMPLE for PARAMETERS, which are some of its own."
-  (make-sample (sample-index sample) parameters
-               (coerce (loop for parameter in parameters
-                             collect (loop for own in (sample-parameters sample)
-                                           for value across (sample-values sample)
-                                           when (string= (parameter-name own)
-                                                         (parameter-name parameter))
-                                             return value))
-                       '(simple-array double-float (*)))))
-
 (defun improve-without-items (shrinker items)
   "Leave ITEMS out of the world of the best case if the discrepancy stays the same; return true if
 it does."
   (let* ((best (shrinker-best shrinker))
          (domain (domain-without-items (discrepancy-domain best) items))
          (trace (discrepancy-trace best)))
-    (improve shrinker :domain domain
-                      :left-out (append (discrepancy-left-out best) items)
-                      :sample (restricted-sample (discrepancy-sample best)
-                                                 (initial-parameters domain trace)))))
+    (improve-with-witnesses shrinker
+                            :domain domain
+                            :left-out (append (discrepancy-left-out best) items)
+                            :sample (restricted-sample (discrepancy-sample best)
+                                                       (initial-parameters domain trace)))))
 
 (defun shrink-items (shrinker)
   "Leave items out of the world of the best case of SHRINKER."

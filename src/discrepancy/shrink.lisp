@@ -49,6 +49,21 @@ EXHAUSTED is NIL, or says when it was stopped by its bounds."
                                                 (run-steps (discrepancy-run best))))
                           :confirmed-p (= (run-hash again) (run-hash (discrepancy-run best))))))))
 
+(defun find-witnesses (shrinker)
+  "Return at most two samples that pass in the original of SHRINKER: the ordinary one, if it does,
+and the last one that the search has seen, or else one that is drawn."
+  (let* ((original (shrinker-original shrinker))
+         (ordinary (ordinary-sample (domain-scene (discrepancy-domain original))
+                                    (discrepancy-sample original)))
+         (seen (find-if (lambda (judgement)
+                          (and judgement (eq (judgement-verdict judgement) :consistent)))
+                        (discrepancy-runs original) :key #'cdr :from-end t))
+         (passing (if seen
+                      (run-sample (car seen))
+                      (passing-sample shrinker 8))))
+    (append (and (eq :passing (attempt shrinker :sample ordinary)) (list ordinary))
+            (and passing (list passing)))))
+
 (defun shrink-discrepancy (discrepancy &key (max-runs 300) (max-seconds 60))
   "Shrink DISCREPANCY to a smaller one of the same kind, find the nearest sample that passes, and
 return a SHRINKING.  It takes at most MAX-RUNS runs, and one to confirm the result, and begins none
@@ -63,6 +78,7 @@ after MAX-SECONDS.  Signals INVALID-ARGUMENT."
                        :original discrepancy :best discrepancy :context context
                        :kind (discrepancy-kind discrepancy)
                        :max-runs max-runs :deadline (+ start max-seconds))))
+        (setf (shrinker-witnesses shrinker) (find-witnesses shrinker))
         (unless (discrepancy-actions discrepancy)
           (shrink-actions shrinker))
         (shrink-items shrinker)

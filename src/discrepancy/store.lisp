@@ -52,7 +52,7 @@ cannot be done there is a warning: what was found is worth more than the file."
              (and (listp part) (json:get-key part "name" nil)))))
     (and object
          ;; One that was shrunk has actions; its original is here, too.
-         (equalp #() (json:get-key object "actions" #()))
+         (zerop (length (json:get-key object "actions" '())))
          (equal (name "plan") (ec:name-text (plan:plan-name (search-plan search))))
          (equal (name "domain")
                 (ec:name-text (symbolic:action-theory-name (search-domain search))))
@@ -84,7 +84,6 @@ cannot be done there is a warning: what was found is worth more than the file."
     (dolist (file (stored-files (search-store search)))
       (when (and (not (end-reason search))
                  (fits-search-p (stored-object file) search))
-        (report-search search :reuse)
         (multiple-value-bind (discrepancy text)
             (in-phase (search :reuse) (retry-stored search file))
           (let* ((kind (and discrepancy (discrepancy-kind discrepancy)))

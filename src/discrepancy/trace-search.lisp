@@ -19,7 +19,8 @@
   "The sampling of a trace in progress, by RULE.  DISCREPANCIES are newest first; IN-A-ROW counts
 the rejected samples since the last valid one, FINDS all discrepancies, REPEATED those of known
 kinds since the last agreement; PENDING are the values of the present ROUND of strata, RUNS conses
-(run . judgement), both newest first; RESTING are the bodies that do not change their regions; REASONS counts why samples were rejected."
+(run . judgement), both newest first; RESTING are the bodies that do not change their regions;
+REASONS counts why samples were rejected."
   (search nil :read-only t)
   (trace nil :read-only t)
   (parameters '() :type list :read-only t)

@@ -54,7 +54,8 @@
 
 (defun quantile-of (numbers part)
   "Return the one of NUMBERS below which PART of them lie."
-  (nth (min (1- (length numbers)) (floor (* part (length numbers)))) (sort (copy-list numbers) #'<)))
+  (nth (min (1- (length numbers)) (floor (* part (length numbers))))
+       (sort (copy-list numbers) #'<)))
 
 (defun distribution-text (numbers)
   "Return the smallest, the middle, the mean and the largest of NUMBERS."
@@ -84,8 +85,8 @@
 ;;; Random simulation
 
 (defun print-random-simulation (rows stream)
-  (format stream "~%Simulation from random initial states over the whole state space, until a ~
-                  discrepancy of the same~%kind:~2%")
+  (format stream "~%Simulation from random initial states over the whole state space, until there ~
+                  is a~%discrepancy of the same kind~2%")
   (dolist (row (remove nil rows :key #'table1-row-random))
     (let ((found (remove nil (mapcar #'cdr (table1-row-random row)))))
       (format stream "~a~%" (paper-search-title (table1-row-search row)))

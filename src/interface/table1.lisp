@@ -1,11 +1,11 @@
 ;;;; The paper's evaluation: Table I, the paper's figures beside ours.
 ;;;;
 ;;;; A PAPER-SEARCH is a row of the table: a plan, its domain and state constraint, and what the
-;;;; paper reports.  An ITERATION is a trace that is simulated; simulations are those that look for a
-;;;; discrepancy, not the one that confirms it.  TABLE1 runs the searches and prints the table
-;;;; (table1-text.lisp); for several seeds also how iterations and simulations are distributed, and
-;;;; for comparison with random simulation how long that takes to meet a discrepancy of the kind that
-;;;; the search has found.
+;;;; paper reports.  An ITERATION is a trace that is simulated; simulations are those that look for
+;;;; a discrepancy, not the one that confirms it.  TABLE1 runs the searches and prints the table
+;;;; (table1-text.lisp); for several seeds also how iterations and simulations are distributed; and
+;;;; for comparison how long simulation from random states takes to meet a discrepancy of the kind
+;;;; that the search has found.
 
 (in-package #:discrepancy-finder)
 

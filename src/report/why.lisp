@@ -63,7 +63,7 @@
       `((:h3 () "The smallest case")
         (:p () ,(format nil "~d of ~d step~:p ~:[are~;is~] left~@[; ~{~a~^, ~} left out of the ~
                              world~]." after before (= after 1)
-                        (texts (key shrunk "left out"))))
+                        (texts (key shrunk "left-out"))))
         (:ol () ,(loop for step across (key shrunk "discrepancy" "trace" "steps")
                        collect `(:li () (:code () ,(key step "designator")))))
         ,(and (key shrunk "boundary")

@@ -114,13 +114,13 @@
   (let ((trace (example-trace)))
     (multiple-value-bind (passing failing) (runs-with-short-arm trace)
       (let* ((edits (discrepancy:candidate-edits (short-arm-discrepancy trace failing)
-                                                 :runs passing))
+                                                 :runs (rest passing)))
              (edit (first edits))
              (edited (discrepancy:edited-domain (two-regions) edit)))
         (is (eq :may-fail (discrepancy:edit-kind edit)))
         (is (search "picking-up" (discrepancy:edit-text edit)))
         (is (search "manipulation-pose-unreachable at any time" (discrepancy:edit-text edit)))
-        (is (equal "this removes the discrepancy and contradicts none of the 4 runs"
+        (is (equal "this removes the discrepancy and contradicts none of the 3 runs"
                    (discrepancy::edit-verdict-text edit)))
         ;; The same discrete state passes and fails: no precondition tells them apart.
         (is (notany (lambda (edit)
@@ -174,3 +174,93 @@
     (is (equal "remove the axiom move-drops from the theory" (discrepancy:edit-text edit)))
     (is (discrepancy:edit-removes-p edit))
     (is (zerop (discrepancy:edit-contradicted edit)))))
+
+;;; Regions
+
+(test ranges-around-numbers
+  (is (equal '(1.5 3.5 0.5) (discrepancy::range-around '(2 3) '(0 1.0 4.0) 0 10)))
+  (is (equal '(1.5 10 0.5) (discrepancy::range-around '(2 3) '(1.0) 0 10)))
+  (is (null (discrepancy::range-around '(2 4) '(3) 0 10)))
+  (is (null (discrepancy::range-around '(2 4) '() 0 10))))
+
+(test separation-by-chance
+  ;; One coordinate, two runs that agree and two others: in 4 of the 6 orders the ones or the others
+  ;; stand together; the bound counts two of these twice.
+  (is (= 1d0 (discrepancy::separation-chance 1 2 2)))
+  (is (< 0.09 (discrepancy::separation-chance 2 5 5) 0.1))
+  (is (< (discrepancy::separation-chance 5 20 10) 1d-5)))
+
+(test a-region-is-refined-where-a-coordinate-separates
+  (let* ((trace (example-trace))
+         (domain (discrepancy:domain-with-parameters (two-regions) '(:reach 0.5)))
+         (passing (loop for x in '(1.25 1.4 1.45 1.5 1.6 1.75)
+                        for y in '(0.4 0.39 0.402 0.41 0.385 0.4)
+                        collect (run-of trace 0.5 0.5 0 x y 0.3)))
+         (failing (loop for x in '(1.1 1.12 1.15 1.85 1.9 1.95)
+                        for y in '(0.4 0.395 0.39 0.4 0.405 0.41)
+                        collect (run-of trace 0.5 0.5 0 x y 0.3)))
+         (few (discrepancy:candidate-edits (short-arm-discrepancy trace (first failing))
+                                           :runs passing))
+         (edits (discrepancy:candidate-edits
+                 (short-arm-discrepancy trace (first failing)) :runs (append passing failing)))
+         (edit (first edits))
+         (range (first (discrepancy:edit-ranges edit))))
+    (is (eq :region (discrepancy:edit-kind edit)))
+    (is (discrepancy:edit-removes-p edit))
+    (is (zerop (discrepancy:edit-contradicted edit)))
+    (is (= 12 (discrepancy:edit-runs edit)))
+    (is (notany #'discrepancy:edit-ranges few) "one failure tells little of where")
+    (is (equal '(:box-x-in-range) (discrepancy::coordinate-range-atom range)))
+    (is (< 1.15 (discrepancy::coordinate-range-min range) 1.25))
+    (is (< 1.75 (discrepancy::coordinate-range-max range) 1.85))
+    (is (search "(:coordinate (box-x-in-range) :body box :axis x :range (1.2000 1.8000))"
+                (discrepancy:edit-text edit)))
+    ;; The refined domain has traces of both kinds, and samples of each.
+    (let* ((edited (discrepancy:edited-domain domain edit))
+           (theory (symbolic:action-theory-theory edited)))
+      (is (assoc :box-x-in-range (ec:theory-fluents theory)))
+      (is (null (assoc :box-x-in-range
+                       (ec:theory-fluents (symbolic:action-theory-theory domain)))))
+      (let ((result (df:find-discrepancies 'discrepancy-finder-user::move-the-box
+                                           :domain edited :constraint :any-action
+                                           :traces :every-state :budget 12)))
+        (is (find t (discrepancy:result-traces result)
+                  :key (lambda (trace-result)
+                         (ec:fluent-value
+                          (symbolic:trace-initial-state
+                           (discrepancy:trace-result-trace trace-result))
+                          '(:box-x-in-range)))))
+        (is (notany (lambda (discrepancy)
+                      (= 1 (discrepancy:divergence-step
+                            (discrepancy:judgement-divergence
+                             (discrepancy:discrepancy-judgement discrepancy)))))
+                    (discrepancy:result-discrepancies result)))))))
+
+(test a-fluent-may-depend-on-one-coordinate
+  (ec:register-theory (ec:revised-theory
+                       (symbolic:action-theory-theory (two-regions))
+                       :fluents '((:robot-far-left))))
+  (flet ((domain (&rest clause)
+           (discrepancy::parse-abstraction
+            :two-regions-left `((:extends :two-regions) (:theory :two-regions) ,clause))))
+    (unwind-protect
+         (let ((domain (domain :coordinate '(robot-far-left) :body 'robot :axis 'x
+                                                             :range '(0 0.3))))
+           (flet ((far-left-p (x)
+                    (and (member '(:robot-far-left)
+                                 (discrepancy:observed-fluents
+                                  (discrepancy:run-initial-state
+                                   (discrepancy:run-plan 'discrepancy-finder-user::move-the-box
+                                                         :domain domain
+                                                         :state `((robot :x ,x)))))
+                                 :test #'equal)
+                         t)))
+             (is (eq t (far-left-p 0.25)))
+             (is (eq nil (far-left-p 0.35))))
+           (signals-with (discrepancy:abstraction-error ":axis is needed")
+             (domain :coordinate '(robot-far-left) :body 'robot :axis 'w :range '(0 1)))
+           (signals-with (discrepancy:abstraction-error "no item cup")
+             (domain :coordinate '(robot-far-left) :body 'cup :axis 'x :range '(0 1)))
+           (signals-with (discrepancy:abstraction-error "range (min max)")
+             (domain :coordinate '(robot-far-left) :body 'robot :axis 'x :range '(1 0))))
+      (ec:register-theory (symbolic:action-theory-theory (two-regions))))))

@@ -39,7 +39,6 @@
 
 (defmacro with-journal-file ((file) &body body)
   `(with-folder (folder)
-     (ensure-directories-exist folder)
      (let ((,file (format nil "~asearch.jsonl" folder)))
        ,@body)))
 

@@ -23,8 +23,8 @@
   (sort (mapcar #'ec:atom-text (ec:state-fluents state)) #'string<))
 
 (defun produced (plan domain)
-  "Return all that PLAN can produce in DOMAIN: lists of the states on a trace, its events and whether
-they are successes."
+  "Return all that PLAN can produce in DOMAIN: lists of the states on a trace, its events, and
+whether they are successes."
   (sort (loop for trace in (symbolic:exploration-traces
                             (df:explore-plan plan :domain domain :constraint :any-action
                                                   :traces :every-state))

@@ -40,7 +40,8 @@
     (is (search "budget of 60" (discrepancy:result-stopped result)))
     (is (= 60 (length (sample-hashes result))))
     (is (= (discrepancy:discrepancy-occurrences discrepancy)
-           (count :discrepancy (discrepancy:trace-result-runs (first (discrepancy:result-traces result)))
+           (count :discrepancy (discrepancy:trace-result-runs
+                                (first (discrepancy:result-traces result)))
                   :key (lambda (entry) (discrepancy:judgement-verdict (cdr entry))))))
     (is (search (format nil "found ~d times" (discrepancy:discrepancy-occurrences discrepancy))
                 (discrepancy:result-text result))))
@@ -77,12 +78,15 @@
 
 (test progress-tells-the-phase
   (let ((phases '()))
-    (find-in-example 0.8 :rule :sound :targets t :budget 30
-                         :progress (lambda (&key phase trace verdict &allow-other-keys)
-                                     (is (= 1 trace))
-                                     (is-true verdict)
+    (find-in-example 0.5 :rule :sound :targets t :budget 30 :keep-going t
+                         :progress (lambda (&key phase trace simulations verdict
+                                            &allow-other-keys)
+                                     (when (eq phase :target)
+                                       (is (= 1 trace))
+                                       (is (< 8 simulations))
+                                       (is-true verdict))
                                      (pushnew phase phases)))
-    (is (equal '(:generate :target) (sort phases #'string<)))))
+    (is (equal '(:confirm :explore :generate :target) (sort phases #'string<)))))
 
 ;;; Targets
 
@@ -185,16 +189,41 @@
                 (discrepancy:result-reason result)))
     (is (search "penetrate" (discrepancy:result-reason result)))))
 
+;;; Cost
+
+(test a-late-sample-costs-what-an-early-one-does
+  "Work is counted in bytes of memory that are asked for."
+  (let* ((region (statistics:make-parameter-region #((0d0 . 1d0) (0d0 . 1d0)) #((0d0 . 2d0))))
+         (evidence (statistics:make-evidence region))
+         (targeting (discrepancy::make-targeting region))
+         (rule (statistics:make-confidence-rule :sound :delta 1d-6))
+         (state (sb-ext:seed-random-state 1))
+         (count 0))
+    (flet ((work (samples)
+             (let ((before (sb-ext:get-bytes-consed)))
+               (loop repeat samples
+                     for x = (double-vector (list (random 1d0 state) (random 1d0 state)))
+                     for y = (double-vector (list (+ (aref x 0) (aref x 1)
+                                                     (random 1d-3 state))))
+                     do (incf count)
+                        (discrepancy::next-origin targeting)
+                        (discrepancy::note-values targeting x y)
+                        (statistics:add-sample evidence
+                                               (statistics:make-parameter-sample x y))
+                        (statistics:evidence-verdict rule evidence))
+               (- (sb-ext:get-bytes-consed) before))))
+      (work 128)
+      (let ((early (work 1280)))
+        (work 7300)
+        (let ((late (work 1280)))
+          (is (= 9988 count (statistics:evidence-blind evidence)))
+          (is (< late (* 1.1 early))))))))
+
 ;;; The store
 
 (defmacro with-folder ((folder) &body body)
   "Evaluate BODY with FOLDER bound to the name of a new folder that is deleted afterwards."
-  `(let ((,folder (namestring (uiop:ensure-directory-pathname
-                               (merge-pathnames (format nil "df-~36r" (random (expt 36 8)))
-                                                (uiop:temporary-directory))))))
-     (unwind-protect (progn ,@body)
-       (uiop:delete-directory-tree (uiop:ensure-directory-pathname ,folder)
-                                   :validate t :if-does-not-exist :ignore))))
+  `(call-in-new-folder (lambda (,folder) ,@body)))
 
 (test stored-discrepancies-are-tried-first
   (with-folder (folder)

@@ -124,6 +124,25 @@
                 (without-element number (discrepancy::short-steps smaller))))
           "step ~d is needed" (1+ number)))))
 
+(test what-passed-must-still-pass
+  (let* ((original (example-discrepancy 1))
+         (steps (discrepancy::short-steps original)))
+    (flet ((improved-p (&rest witnesses)
+             (let ((shrinker (shrinker-of original)))
+               (setf (discrepancy::shrinker-witnesses shrinker) witnesses)
+               (discrepancy::improve-by-steps shrinker steps))))
+      (let* ((witnesses (discrepancy::find-witnesses (shrinker-of original)))
+             (values (mapcar (lambda (sample)
+                               (coerce (discrepancy:sample-values sample) 'list))
+                             witnesses)))
+        (is (equal '(0.5d0 0d0 1.5d0 0.4d0 0d0) (first values)) "the ordinary sample passes")
+        (is (= 2 (length witnesses)))
+        (dolist (witness witnesses)
+          (is (eq :consistent (verdict-from original witness))))
+        (is-true (apply #'improved-p witnesses)))
+      (is (null (improved-p (discrepancy:discrepancy-sample original)))
+          "a witness that does not pass"))))
+
 (test without-its-plan-a-run-has-the-same-bits
   (let* ((original (table-top-discrepancy))
          (actions (mapcar #'discrepancy::short-step-action (discrepancy::short-steps original)))

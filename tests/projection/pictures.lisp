@@ -201,13 +201,6 @@ VIEWPOINT, and NIL if it is outside of the picture."
 
 ;;; Files
 
-(defun call-in-new-folder (function)
-  (let ((folder (ensure-directories-exist
-                 (merge-pathnames (format nil "df-frames-~36r/" (random (expt 36 8)))
-                                  (uiop:temporary-directory)))))
-    (unwind-protect (funcall function (namestring folder))
-      (uiop:delete-directory-tree folder :validate t))))
-
 (defun folder-files (folder)
   "Return the sorted names of the files in FOLDER, hidden ones included."
   (sort (uiop:run-program (list "ls" "-A" folder) :output :lines) #'string<))

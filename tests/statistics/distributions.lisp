@@ -90,6 +90,16 @@
                     (is (nearly p (statistics:student-cdf (statistics:student-quantile p a) a)
                                 1d-11)))))
 
+(test small-tails-are-no-matter
+  "Newton's step is not taken where the density is next to nothing."
+  (is (nearly -5.8003517343429461198d0 (statistics:student-quantile (/ 1.149d-8 2) 521) 1d-10))
+  (loop for tail in '(1d-8 3d-9 1d-11 1d-13)
+        do (loop for freedom from 1 to 1200 by 47
+                 do (is (< (abs (- 1 (/ (statistics:student-cdf
+                                         (statistics:student-quantile tail freedom) freedom)
+                                        tail)))
+                           1d-9)))))
+
 (test distributions-at-their-ends
   (is (= 0 (statistics:beta-cdf 0 2 3)))
   (is (= 1 (statistics:beta-cdf 1 2 3)))

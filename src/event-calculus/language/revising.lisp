@@ -12,11 +12,11 @@
                   (or (eq (first form) :initially) (some #'look (rest form))))))
     (look (axiom-formula axiom))))
 
-(defun revised-theory (theory &key without with complete-events)
+(defun revised-theory (theory &key without with fluents complete-events)
   "Return THEORY without the axioms whose names are in the list WITHOUT, and with those of WITH, a
 list of (name formula), in the place of older ones of the same name.  The state constraints are
-kept.  With COMPLETE-EVENTS no event happens unless an axiom makes it happen.  The new theory is not
-registered.  Signals THEORY-ERROR."
+kept.  FLUENTS are further ones, as THEORY-FLUENTS has them.  With COMPLETE-EVENTS no event happens
+unless an axiom makes it happen.  The new theory is not registered.  Signals THEORY-ERROR."
   (let* ((axioms (loop for (name formula) in with
                        collect (make-axiom
                                 :name (name-keyword name)
@@ -24,7 +24,7 @@ registered.  Signals THEORY-ERROR."
                                                     (format nil "axiom ~a" (name-text name))))))
          (rest (theory-without theory (append without (mapcar #'axiom-name axioms)))))
     (inherit-state-constraints
-     (make-checked-theory :extends (list rest) :axioms axioms
+     (make-checked-theory :extends (list rest) :axioms axioms :fluents fluents
                           :name (theory-name theory) :documentation (theory-documentation theory)
                           :syntax (theory-syntax theory) :file (theory-file theory)
                           :completions (and complete-events '((nil :happens))))

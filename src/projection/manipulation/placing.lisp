@@ -65,8 +65,8 @@ MANIPULATION-POSE-UNREACHABLE and MANIPULATION-GOAL-NOT-REACHED."
 
 (defun retreat (projection arm)
   "Take the open hand of ARM straight back from where it is, or else upwards, as far as that is
-possible.  What the hand was around is not to be pushed away: a way on which it touches nothing comes
-before one that is free only where it ends."
+possible.  What the hand was around is not to be pushed away: a way on which it touches nothing
+comes before one that is free only where it ends."
   (let* ((tool (tool-pose projection arm))
          (start (joint-positions (projection-robot projection)))
          (ways (loop for end in (list (advanced tool -0.12d0) (advanced tool -0.08d0)

@@ -30,6 +30,11 @@ RESULT-FORM, PROPERTIES the keys of its further arguments."
   (properties '() :type list :read-only t)
   (describe-outcomes #'identity :type function :read-only t))
 
+(setf (documentation 'action-binding-class 'function)
+      "Return the class of the designators that an action binding is for: :MOTION or :ACTION."
+      (documentation 'action-binding-type 'function)
+      "Return the type of the designators that an action binding is for, a keyword.")
+
 (defmethod print-object ((binding action-binding) stream)
   (print-unreadable-object (binding stream :type t)
     (write-string (binding-text binding) stream)))
@@ -52,7 +57,11 @@ the value of perform.  NUMBER is its place among the outcomes of BINDING."
   (binding nil :read-only t)
   (number 0 :type (integer 0) :read-only t))
 
-(setf (documentation 'make-outcome 'function)
+(setf (documentation 'action-binding-class 'function)
+      "Return the class of the designators of an action binding, :MOTION or :ACTION."
+      (documentation 'action-binding-type 'function)
+      "Return the type of the designators of an action binding, a keyword."
+      (documentation 'make-outcome 'function)
       "Return a new OUTCOME; see the structure for the arguments."
       (documentation 'outcome-name 'function)
       "Return the name of an outcome: :SUCCESS or a failure class."
