@@ -60,10 +60,10 @@ The environment variable CXX names another compiler than g++."))
   :pathname "src/interface/"
   :serial t
   :components ((:file "package") (:file "repl") (:file "command-line") (:file "progress")
-               (:file "simulate") (:file "subcommands") (:file "find-command")
-               (:file "plan-commands") (:file "discrepancy-commands")
-               (:file "theory-commands")
-               (:file "table1") (:file "table1-text") (:file "table1-command") (:file "image"))
+               (:file "simulate") (:file "find-command") (:file "discrepancy-commands")
+               (:file "plan-commands") (:file "theory-commands")
+               (:file "table1") (:file "table1-text") (:file "table1-command")
+               (:file "subcommands") (:file "image"))
   :in-order-to ((asdf:test-op (asdf:test-op "discrepancy-finder/tests"))))
 
 (asdf:defsystem "discrepancy-finder/geometry"

@@ -1,9 +1,10 @@
 ;;;; Results of searches as JSON: all that a report tells, for programs to read.
 ;;;;
 ;;;; RESULT-JSON is the entry point.  The object for a search holds one for each trace and one for
-;;;; each discrepancy, which tells its trace in full.  States are arrays of the fluents that are true;
-;;;; of the simulation only those in the array "observable" are known.  Keys are lower case, words of
-;;;; several parts have underscores; steps and traces count from 1, samples from 0; units are SI.
+;;;; each discrepancy, which tells its trace in full.  States are arrays of the fluents that are
+;;;; true; of the simulation only those in the array "observable" are known.  Keys are lower case,
+;;;; words of several parts have underscores; steps and traces count from 1, samples from 0; units
+;;;; are SI.  docs/results.md names all keys.
 
 (in-package #:discrepancy-finder.discrepancy)
 

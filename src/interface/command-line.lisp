@@ -39,6 +39,10 @@ status."
                                                     (declare (ignorable ,arguments ,options))
                                                     ,@body))))))
 
+(defun command-name ()
+  "Return how the user called the executable, for texts that tell what to type."
+  (or (uiop:getenvp "DISCREPANCY_FINDER_COMMAND") "discrepancy-finder"))
+
 ;;; Values of options
 
 (defun keyword-argument (text)

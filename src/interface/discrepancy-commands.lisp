@@ -1,5 +1,5 @@
-;;;; The subcommands about discrepancies: replay a stored one, say why it is one, make it smaller; and
-;;;; refine a theory by those that are found.
+;;;; The subcommands about discrepancies: replay a stored one, say why it is one, make it smaller;
+;;;; and refine a theory by those that are found.
 
 (in-package #:discrepancy-finder)
 
@@ -18,7 +18,7 @@
 
 (define-subcommand "replay" (arguments options)
     ("FILE [--step]"
-     "Run a stored discrepancy again, both executions side by side; does it come out the same?"
+     "Run a stored discrepancy again, theory and simulation side by side."
      (("step") :type boolean :optional t
       :documentation "stop after each action: Enter goes on, c goes on to the end"))
   (let* ((step (getf options :step))
@@ -41,7 +41,7 @@ print the replay.  Return the exit status."
 
 (define-subcommand "explain" (arguments options)
     ("FILE [--runs N]"
-     "Say why a stored discrepancy is one: axioms, coordinates, candidate edits of the theory."
+     "Say why a stored discrepancy is one, and what to do about it."
      (("runs") :type integer :documentation "largest number of simulations (30)"))
   (call-with-replayed
    (lambda (discrepancy)
@@ -53,7 +53,7 @@ print the replay.  Return the exit status."
 
 (define-subcommand "shrink" (arguments options)
     ("FILE [--runs N] [--seconds S] [--save FILE]"
-     "Look for the smallest case of a stored discrepancy, and the nearest sample that passes."
+     "Look for the smallest case of a stored discrepancy."
      (("runs") :type integer :documentation "largest number of simulations (300)")
      (("seconds") :type string :documentation "longest time in seconds (60)")
      (("save") :type string :documentation "file for the smallest case"))
@@ -72,7 +72,7 @@ print the replay.  Return the exit status."
 
 (define-subcommand "refine" (arguments options)
     ("PLAN ... --domain DOMAIN [OPTION ...]"
-     "Refine a theory: find a discrepancy, apply the best edit, and again, until none is found."
+     "Find discrepancies and apply the best edit until none is found."
      (("domain") :type string :documentation "name of a domain, or its file or folder")
      (("constraint") :type string :documentation "name of the state constraint (any-action)")
      (("edits") :type integer :documentation "largest number of edits (50)")

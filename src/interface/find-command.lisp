@@ -13,7 +13,8 @@
   (let ((text (getf options :store)))
     (cond ((null text) "discrepancies/")
           ((string= text "none") nil)
-          ((string= text "") (usage-problem "--store is empty where a folder or none was expected."))
+          ((string= text "")
+           (usage-problem "--store is empty where a folder or none was expected."))
           (t text))))
 
 (defun search-options (options)

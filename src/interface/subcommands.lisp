@@ -2,10 +2,6 @@
 
 (in-package #:discrepancy-finder)
 
-(defun command-name ()
-  "Return how the user called the executable, for texts that tell what to type."
-  (or (uiop:getenvp "DISCREPANCY_FINDER_COMMAND") "discrepancy-finder"))
-
 (define-subcommand "demo" (arguments options)
     (""
      "Run both variants of the paper's Example 1."

@@ -29,8 +29,8 @@
     (and (< x0 u1) (< u0 x1) (< (abs (- y v)) (- *label-line* 2)))))
 
 (defun label-nodes (labels height obstacles)
-  "Return the texts of LABELS on a map of HEIGHT pixels, none of them on one of the OBSTACLES, a list
-of (least-x largest-x y) in pixels."
+  "Return the texts of LABELS on a map of HEIGHT pixels, none of them on one of the OBSTACLES, a
+list of (least-x largest-x y) in pixels."
   (let ((taken obstacles))
     (loop for label in labels
           for place = (loop for line from 0 to 4

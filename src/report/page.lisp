@@ -1,7 +1,8 @@
 ;;;; The page: a search's result for a browser, in one file that needs nothing else.
 ;;;;
 ;;;; WRITE-REPORT is the entry point.  All words and numbers come from the JSON of the result
-;;;; (RESULT-JSON), which the page also holds; pictures come from running samples again (shots.lisp).
+;;;; (RESULT-JSON), which the page also holds; pictures come from running samples once more
+;;;; (shots.lisp).
 
 (in-package #:discrepancy-finder.report)
 
@@ -182,8 +183,8 @@ discrepancy."
 (defun trace-section (number trace-json shots domain trace)
   `(:section (:id ,(format nil "trace-~d" number))
      (:h2 () ,(format nil "Trace ~d: ~a" number (key trace-json "status")))
-     (:p () ,(format nil "~a.  ~d simulation~:p agree~:*~[~;s~:;~] with the theory~@[, ~d sample~:p ~
-                          rejected~]~@[, ~d left the trace~]."
+     (:p () ,(format nil "~a.  ~d simulation~:p agree~:*~[~;s~:;~] with the theory~@[, ~d ~
+                          sample~:p rejected~]~@[, ~d left the trace~]."
                      (capitalized (key trace-json "reason")) (key trace-json "samples")
                      (positive (key trace-json "rejected"))
                      (positive (key trace-json "left_trace"))))
@@ -234,8 +235,8 @@ discrepancy."
            ,(discrepancy-sections result object command)
            ,(trace-sections result object)
            (:section (:id "search") (:h2 () "The search") ,(facts-node object))
-           (:footer () "discrepancy-finder. The result as JSON is in this page, in the element with "
-                    "the id result."))
+           (:footer () "discrepancy-finder. The result as JSON is in this page, in the element "
+                    "with the id result."))
          (:script (:type "application/json" :id "result")
            (:verbatim ,(script-text (json:encode object))))))))
 
@@ -249,8 +250,8 @@ discrepancy."
 
 (defun write-report (result file &key (command "./discrepancy-finder"))
   "Write RESULT, a SEARCH-RESULT, to FILE as one HTML page that needs nothing else, and return its
-name.  The page shows verdict and sentence, what happened, a map with regions, samples and paths, the
-steps on both sides, and how COMMAND replays it; it holds the JSON of RESULT.  For the pictures some
+name.  The page shows verdict and sentence, what happened, a map with regions, samples and paths,
+the steps on both sides, and how COMMAND replays it; it holds the JSON of RESULT.  For the pictures some
 samples are run again.  Signals REPLAY-ERROR if FILE cannot be written."
   (let ((page (node-text (page-node result (discrepancy:result-json result) command))))
     (discrepancy:write-file-whole file (format nil "<!DOCTYPE html>~%~a" page))

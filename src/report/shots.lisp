@@ -8,8 +8,8 @@
 
 (defstruct (shot (:copier nil))
   "What a run of SAMPLE looks like: BEFORE and AFTER are outlines as OUTLINES-FROM-ABOVE returns
-them, TRAIL is the way of the base, a list of (x y yaw), and STOPS are the places (x y yaw) where the
-base was after each performed designator.  VERDICT is :PASSED, :FAILED or :LEFT."
+them, TRAIL is the way of the base, a list of (x y yaw), and STOPS are the places (x y yaw) where
+the base was after each performed designator.  VERDICT is :PASSED, :FAILED or :LEFT."
   (sample nil :read-only t)
   (verdict :passed :type (member :passed :failed :left) :read-only t)
   (before '() :type list :read-only t)

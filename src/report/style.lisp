@@ -1,4 +1,5 @@
-;;;; The style sheet of reports: dark text on white, one colour for what passed, one for what failed.
+;;;; The style sheet of reports: dark text on white, one colour for what passed, another for what
+;;;; failed.
 
 (in-package #:discrepancy-finder.report)
 

@@ -73,8 +73,8 @@ of texts."
                                                collect (list sign fluent))))))
 
 (defun theory-cell (step before marked observable)
-  "Return the cell that tells STEP of the theory; OBSERVABLE are the fluents that can be observed, or
-:ALL."
+  "Return the cell that tells STEP of the theory; OBSERVABLE are the fluents that can be observed,
+or :ALL."
   (let* ((changes (changes before (texts (key step "state"))))
          (seen (remove-if-not (lambda (change)
                                 (or (eq observable :all)

@@ -1,7 +1,8 @@
 ;;;; Reports in a browser: Chromium, without a window, shows what the JSON says.
 ;;;;
 ;;;; Run by `test --browser` only.  A script that is added to a copy of the page writes what can be
-;;;; seen of it, as the browser lays it out, into an element; the browser's dump of the page is read.
+;;;; seen of it, as the browser lays it out, into an element; the browser's dump of the page is
+;;;; read.
 
 (in-package #:discrepancy-finder.tests)
 

@@ -130,6 +130,7 @@ and so on."
 
 (test the-text-on-results-names-every-key
   (let ((text (uiop:read-file-string (root-file "docs/results.md"))))
-    (dolist (key (union (json-keys (json-of (found-result))) (json-keys (json-of (certified-result)))
+    (dolist (key (union (json-keys (json-of (found-result)))
+                        (json-keys (json-of (certified-result)))
                         :test #'string=))
       (is-true (shows-p (format nil "`~a`" key) text) "~s is not in docs/results.md" key))))
