@@ -330,26 +330,39 @@ The environment variable CXX names another compiler than g++."))
   :pathname "src/discrepancy/"
   :serial t
   :components ((:file "package") (:file "conditions")
-               (:file "random") (:file "samplers") (:file "regions") (:file "observers")
-               (:file "abstraction") (:file "parsing") (:file "parsing-observers")
-               (:file "extending") (:file "define-abstraction")
-               (:file "catalog") (:file "sampling") (:file "meter") (:file "actions")
-               (:file "execution") (:file "judgement") (:file "comparisons")
-               (:file "results") (:file "search-results") (:file "search-state")
-               (:file "targets") (:file "trace-search") (:file "finds") (:file "statements")
-               (:file "report")
-               (:file "scene-runs") (:file "action-json")
-               (:file "side-by-side") (:file "stepping") (:file "replay") (:file "replay-file")
-               (:file "store") (:file "journal") (:file "search")
-               (:file "edits") (:file "edits-examples") (:file "edits-conditions")
-               (:file "edits-effects") (:file "edits-outcomes") (:file "edits-regions")
-               (:file "edits-check")
-               (:file "explain-theory") (:file "explain-coordinates") (:file "explain")
-               (:file "explain-text")
-               (:file "shrink-attempts") (:file "shrink-steps") (:file "shrink-coordinates")
-               (:file "boundary") (:file "shrink") (:file "review") (:file "brute-force")
-               (:file "refine") (:file "refine-text")
-               (:file "result-json")))
+               (:module "domains" :serial t
+                :components ((:file "regions") (:file "observers") (:file "abstraction")
+                             (:file "parsing") (:file "parsing-observers") (:file "extending")
+                             (:file "define-abstraction") (:file "catalog")))
+               (:module "sampling" :serial t
+                :components ((:file "random") (:file "samplers") (:file "sampling")))
+               (:module "execution" :serial t
+                :components ((:file "meter") (:file "actions") (:file "execution")
+                             (:file "scene-runs")))
+               (:module "judgement" :serial t
+                :components ((:file "judgement") (:file "comparisons")))
+               (:module "results" :serial t
+                :components ((:file "results") (:file "search-results") (:file "statements")
+                             (:file "report") (:file "result-json")))
+               (:module "replay" :serial t
+                :components ((:file "action-json") (:file "side-by-side") (:file "stepping")
+                             (:file "replay") (:file "replay-file")))
+               (:module "search" :serial t
+                :components ((:file "search-state") (:file "targets") (:file "trace-search")
+                             (:file "finds") (:file "store") (:file "journal") (:file "search")))
+               (:module "edits" :serial t
+                :components ((:file "edits") (:file "examples") (:file "conditions")
+                             (:file "effects") (:file "outcomes") (:file "regions")
+                             (:file "check")))
+               (:module "explanation" :serial t
+                :components ((:file "theory") (:file "coordinates") (:file "explain")
+                             (:file "text")))
+               (:module "shrinking" :serial t
+                :components ((:file "attempts") (:file "steps") (:file "coordinates")
+                             (:file "boundary") (:file "shrink")))
+               (:module "refinement" :serial t
+                :components ((:file "refine") (:file "text")))
+               (:file "review") (:file "brute-force")))
 
 (asdf:defsystem "discrepancy-finder/report"
   :description "Results of searches as pages for a browser."
