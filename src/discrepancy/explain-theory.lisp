@@ -94,8 +94,8 @@ LAST."
 
 (defun piece-of-run (domain moment run last &key event condition)
   "Return the theory of DOMAIN with the facts of MOMENT and the events of the steps of RUN from
-there to the step before LAST; with EVENT, a list, that happens in step LAST, and the CONDITION, a formula
-about that time.  What the theory says of the beginning is left out unless MOMENT is the beginning."
+there to the step before LAST; with EVENT, a list, that happens in step LAST, and the CONDITION, a
+formula about that time.  What the theory says of the beginning is left out unless MOMENT is the beginning."
   (let ((theory (symbolic:action-theory-theory domain))
         (first (moment-time moment)))
     (ec:revised-theory
