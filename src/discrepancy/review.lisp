@@ -27,7 +27,8 @@ the scene's that it was found with, if it was not the scene as it is."
 
 (defmethod print-object ((doubt doubt) stream)
   (print-unreadable-object (doubt stream :type t)
-    (format stream "~a:~{ ~a~^,~}" (doubt-file doubt) (mapcar #'ground-text (doubt-grounds doubt)))))
+    (format stream "~a:~{ ~a~^,~}" (doubt-file doubt)
+            (mapcar #'ground-text (doubt-grounds doubt)))))
 
 (defstruct (review (:copier nil))
   "A VERIFICATION and the DOUBTS about its verdict.  REPLAYED counts the stored discrepancies that
@@ -122,9 +123,9 @@ or NIL, and why it does not show again, a text, or NIL."
   "The folder that holds the stored discrepancies unless another one is named.")
 
 (defun review-of-verification (verification &key (store *default-store*) files)
-  "Return the REVIEW of VERIFICATION, which was made with the option :COVERAGE T, by the discrepancies
-in the folder STORE, or in FILES, of its domain and of those that share axioms with it.  Each is
-replayed; the plans and domains that the files name are loaded unless they are defined.  Signals
+  "Return the REVIEW of VERIFICATION, which was made with the option :COVERAGE T, by the
+discrepancies in the folder STORE, or in FILES, of its domain and of those that share axioms with it.
+Each is replayed; the plans and domains that the files name are loaded unless they are defined.  Signals
 COVERAGE-NOT-RECORDED."
   (let* ((grounds (verdict-grounds verification))
          (domain (symbolic:exploration-domain (symbolic:verification-exploration verification)))
@@ -140,8 +141,8 @@ COVERAGE-NOT-RECORDED."
 
 (defun review-plan (plan &rest options &key domain (store *default-store*) files
                     &allow-other-keys)
-  "Verify PLAN (a symbol) in DOMAIN (a domain or its name) and return the REVIEW of the verdict by the
-discrepancies in the folder STORE, or in FILES.  The other options are those of VERIFY-PLAN:
+  "Verify PLAN (a symbol) in DOMAIN (a domain or its name) and return the REVIEW of the verdict by
+the discrepancies in the folder STORE, or in FILES.  The other options are those of VERIFY-PLAN:
 PROPERTY and the bounds.  Signals what VERIFY-PLAN signals."
   (review-of-verification
    (apply #'symbolic:verify-plan (plan:plan-name (ensure-plan plan))

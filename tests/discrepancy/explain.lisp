@@ -127,6 +127,7 @@
   (let* ((trace (example-trace))
          (bad (run-of trace 0.5 0.5 0 1.9 0.4 0))
          (run (discrepancy::make-run
+               :sample (discrepancy::run-sample bad)
                :initial-state (discrepancy:run-initial-state bad)
                :steps (loop for step in (discrepancy:run-steps bad)
                             for first = t then nil
@@ -192,7 +193,8 @@
                                   (discrepancy:influence-parameters influence))))
     (is (< 1.6 (first (discrepancy:influence-agreeing influence))
            (first (discrepancy:influence-failing influence)) 1.95))
-    (is (search "Of the 2 runs of this trace 1 agrees" (discrepancy:explanation-text explanation)))))
+    (is (search "Of the 2 runs of this trace 1 agrees"
+                (discrepancy:explanation-text explanation)))))
 
 (test a-smallest-change-of-several-coordinates
   "Two coordinates that have to change together, among five."

@@ -52,7 +52,7 @@
                                     (changed-state (discrepancy:run-step-state step) changes)
                                     (discrepancy:run-step-state step))))))
 
-(defun judged (domain run trace &rest options)
+(defun verdict-steps-of (domain run trace &rest options)
   "Return the verdict on RUN, the step of its divergence and the fluents in it."
   (let* ((judgement (apply #'discrepancy:judge-run domain run trace options))
          (divergence (discrepancy:judgement-divergence judgement)))
@@ -66,14 +66,14 @@
          (trace (trace-of-a-loose-box domain))
          (run (run-of trace 0.8 0.5 0 1.5 0.4 0))
          (elsewhere (changed-run run 3 '((:box-in :r1)) '((:box-in :r2) . t))))
-    (is (equal '(:consistent) (judged domain run trace)))
-    (is (equal '(:consistent) (judged domain run trace :comparison :exact)))
-    (is (equal '(:consistent) (judged domain elsewhere trace))
+    (is (equal '(:consistent) (verdict-steps-of domain run trace)))
+    (is (equal '(:consistent) (verdict-steps-of domain run trace :comparison :exact)))
+    (is (equal '(:consistent) (verdict-steps-of domain elsewhere trace))
         "the theory lets the box end up in r2")
     (is (equal '(:discrepancy 3 (((:box-in :r1) t nil) ((:box-in :r2) nil t)))
-               (judged domain elsewhere trace :comparison :exact)))
+               (verdict-steps-of domain elsewhere trace :comparison :exact)))
     (is (equal '(:discrepancy 3 (((:box-in :r1) t nil) ((:box-in :r2) nil t)))
-               (judged (two-regions) elsewhere trace))
+               (verdict-steps-of (two-regions) elsewhere trace))
         "the original theory does not")
     (is (eq :exact (discrepancy:judgement-comparison
                     (discrepancy:judge-run domain run trace :comparison :exact))))))
@@ -83,9 +83,9 @@
   (let* ((trace (example-trace))
          (run (changed-run (run-of trace 0.8 0.5 0 1.5 0.4 0) 1 '((:holding-box)))))
     (is (equal '(:consistent 1 (((:holding-box) t nil)))
-               (judged (two-regions) run trace :comparison :exact)))
+               (verdict-steps-of (two-regions) run trace :comparison :exact)))
     (is (equal '(:discrepancy 1 (((:holding-box) t nil)))
-               (judged (two-regions) run trace :comparison :exact :compare :every-step)))))
+               (verdict-steps-of (two-regions) run trace :comparison :exact :compare :every-step)))))
 
 (test a-run-beyond-its-trace-is-judged-exactly-only-along-it
   (let* ((trace (example-trace))
@@ -95,11 +95,11 @@
                  :states (subseq (symbolic:trace-states trace) 0 3)))
          (run (run-of trace 0.8 0.5 0 1.5 0.4 0))
          (lost (changed-run run 1 '((:holding-box)))))
-    (is (equal '(:consistent) (judged (two-regions) run short :comparison :exact)))
+    (is (equal '(:consistent) (verdict-steps-of (two-regions) run short :comparison :exact)))
     (is (equal '(:discrepancy 1 (((:holding-box) t nil)))
-               (judged (two-regions) lost short :comparison :exact))
+               (verdict-steps-of (two-regions) lost short :comparison :exact))
         "the state after the trace's last step is the one to compare")
-    (is (equal '(:consistent 1 (((:holding-box) t nil))) (judged (two-regions) lost short))
+    (is (equal '(:consistent 1 (((:holding-box) t nil))) (verdict-steps-of (two-regions) lost short))
         "the run's last state is as the theory says")))
 
 (test what-is-impossible-only-together
@@ -108,7 +108,7 @@
          (trace (trace-of-a-loose-box domain))
          (run (changed-run (run-of trace 0.8 0.5 0 1.5 0.4 0) 3 '((:box-in :r1)) '((:box-in :r2)))))
     (is (equal '(:discrepancy 3 (((:box-in :r1) t nil) ((:box-in :r2) t nil)))
-               (judged domain run trace)))))
+               (verdict-steps-of domain run trace)))))
 
 (test an-exact-judgement-of-another-outcome
   "An outcome that the theory forbids is a discrepancy by either comparison."
@@ -116,7 +116,7 @@
          (bad (run-of trace 0.5 0.5 0 1.9 0.4 0)))
     (dolist (comparison '(:consistent :exact))
       (is (equal '(:discrepancy 1 (((:holding-box) t nil)))
-                 (judged (two-regions) bad trace :comparison comparison))))))
+                 (verdict-steps-of (two-regions) bad trace :comparison comparison))))))
 
 (test comparisons-of-all-steps
   (let* ((domain (domain-of-a-loose-box))

@@ -50,8 +50,8 @@ simulation agree.")
   (:documentation "The runs around a discrepancy, and how many more there may be."))
 
 (defun same-kind-p (discrepancy run judgement)
-  "Return true if JUDGEMENT on RUN finds a discrepancy of the same kind as DISCREPANCY: the same kind
-of action and the same predicate, or failure, at which theory and simulation part first."
+  "Return true if JUDGEMENT on RUN finds a discrepancy of the same kind as DISCREPANCY: theory and
+simulation part first at the same kind of action, in the same predicate or failure."
   (flet ((kind (run judgement)
            (let* ((divergence (judgement-divergence judgement))
                   (step (nth (divergence-step divergence) (run-steps run))))

@@ -148,9 +148,9 @@ RUN has followed it so far, else that of success."
 
 (defun explain-discrepancy (discrepancy &key (runs (known-runs discrepancy)) (max-runs 30)
                                           max-seconds)
-  "Return the EXPLANATION of DISCREPANCY.  RUNS are the valid runs of its trace so far, or pairs (run
-. judgement).  At most MAX-RUNS further runs, begun within MAX-SECONDS (NIL: no limit), find out
-which coordinates decide; with 0 none are made.  EXPLANATION-TEXT tells it in words."
+  "Return the EXPLANATION of DISCREPANCY.  RUNS are the valid runs of its trace so far, or pairs
+\(run . judgement).  At most MAX-RUNS further runs, begun within MAX-SECONDS (NIL: no limit), find
+out which coordinates decide; with 0 none are made.  EXPLANATION-TEXT tells it in words."
   (z3:with-context (context)
     (let* ((known (judged-runs discrepancy runs context))
            (known (if (find (discrepancy-run discrepancy) known :key #'car)

@@ -66,7 +66,8 @@ observed-in-the-run-3)\"."
                                '("what was seen"))))))))
 
 (defun origin-text (origin)
-  (format nil "~a is ~a ~:[from the beginning~*~*~;since step ~:*~d, ~a~@[ (axiom~p ~{~a~^, ~})~]~]."
+  (format nil "~a is ~a ~:[from the beginning~*~*~;since step ~:*~d, ~a~@[ (axiom~p ~{~a~^, ~
+               ~})~]~]."
           (ec:atom-text (origin-atom origin)) (truth-text (origin-truth origin))
           (and (origin-step origin) (1+ (origin-step origin)))
           (event-text (origin-event origin))
@@ -137,7 +138,8 @@ observed-in-the-run-3)\"."
              (format nil "~{~a~^ and ~}" (mapcar #'value-text parameters values))))
       (if (rest parameters)
           (format nil "Together: ~a fails still, ~a agrees."
-                  (all-text (influence-failing influence)) (all-text (influence-agreeing influence)))
+                  (all-text (influence-failing influence))
+                  (all-text (influence-agreeing influence)))
           (destructuring-bind (here failing agreeing)
               (loop for values in (list (influence-here influence) (influence-failing influence)
                                         (influence-agreeing influence))
@@ -147,8 +149,8 @@ observed-in-the-run-3)\"."
                     agreeing (seen-text influence)))))))
 
 (defun runs-text (explanation)
-  (format nil "Of the ~d run~:p of this trace ~d agree~p; ~d further run~:p ~:*~[were~;was~:;were~] ~
-               made for this."
+  (format nil "Of the ~d run~:p of this trace ~d agree~p; ~d further run~:p ~
+               ~:*~[were~;was~:;were~] made for this."
           (+ (explanation-agreeing explanation) (explanation-differing explanation))
           (explanation-agreeing explanation)
           (if (= 1 (explanation-agreeing explanation)) 2 1)

@@ -1,8 +1,8 @@
 ;;;; Why the theory says what it says: the axioms and the inertia behind a divergence.
 ;;;;
-;;;; A run is told to the bounded reasoner as facts: what is the case at a MOMENT, a timepoint of the
-;;;; run, and the events after it.  A CLAIM is a fluent's value after the divergent step, or that the
-;;;; step cannot have ended as it did; its minimal core names the axioms.  The shortest piece of the
+;;;; A run is told to the bounded reasoner as facts: what is the case at a MOMENT, a timepoint of
+;;;; the run, and the events after it.  A CLAIM is a fluent's value after the divergent step, or that
+;;;; the step cannot have ended as it did; its minimal core names the axioms.  The shortest piece of the
 ;;;; run from which the claim follows is taken, one step as a rule, and for each fact that the claim
 ;;;; rests on its ORIGIN is told: the step that brought it about.  Entry points: STATE-CLAIMS,
 ;;;; OUTCOME-CLAIM and REQUIREMENT-CLAIM.
@@ -14,8 +14,8 @@
 (defstruct (moment (:copier nil))
   "What is the case at the timepoint TIME of a run: FACTS is a list of (atom . truth), observed or,
 where nothing is observed, said by the theory; what follows from other fluents at the same time, as
-fluents that are not inertial do, is no fact unless it is observed.  SELF-CONTAINED-P is true if what happened before
-does not matter to the theory."
+fluents that are not inertial do, is no fact unless it is observed.  SELF-CONTAINED-P is true if
+what happened before does not matter to the theory."
   (time 0 :type (integer 0) :read-only t)
   (facts '() :type list :read-only t)
   (self-contained-p nil :type boolean :read-only t))
@@ -93,9 +93,9 @@ LAST."
     (if truth form (list :not form))))
 
 (defun piece-of-run (domain moment run last &key event condition)
-  "Return the theory of DOMAIN with the facts of MOMENT and the events of the steps of RUN from there
-to the step before LAST; with EVENT, a list, that happens in step LAST, and the CONDITION, a formula
-about that time.  What the theory says of the beginning is left out unless MOMENT is the beginning."
+  "Return the theory of DOMAIN with the facts of MOMENT and the events of the steps of RUN from
+there to the step before LAST; with EVENT, a list, that happens in step LAST, and the CONDITION, a
+formula about that time.  What the theory says of the beginning is left out unless MOMENT is the beginning."
   (let ((theory (symbolic:action-theory-theory domain))
         (first (moment-time moment)))
     (ec:revised-theory
@@ -203,8 +203,8 @@ which it follows."
                     moments number))
 
 (defun value-explanation (domain moments run number atom truth)
-  "Return why the theory says that ATOM has the value TRUTH after step NUMBER of RUN, or NIL, and the
-moment from which it follows."
+  "Return why the theory says that ATOM has the value TRUTH after step NUMBER of RUN, or NIL, and
+the moment from which it follows."
   (fluents-explanation domain moments run number (seen-event (nth number (run-steps run)))
                        (list (cons atom truth))))
 

@@ -166,9 +166,10 @@ outcomes that it allows, or CANDIDATES if there are none."
       candidates))
 
 (defun map-steps (function domain solver state steps trace comparison)
-  "Call FUNCTION for each of STEPS, those of a run, from STATE on, until it returns true or the theory
-forbids an outcome: with the step's number, the step, what is wrong (:OUTCOME, :STATE or NIL), the
-list of (atom theory-value simulation-value) in which they differ, and the candidates after it."
+  "Call FUNCTION for each of STEPS, those of a run, from STATE on, until it returns true or the
+theory forbids an outcome: with the step's number, the step, what is wrong (:OUTCOME, :STATE or
+NIL), the list of (atom theory-value simulation-value) in which they differ, and the candidates
+after it."
   (let ((candidates (and (eq (z3:check solver) :sat) (list (cons state t)))))
     (loop for step in steps
           for number from 0
