@@ -143,8 +143,8 @@ wherever the robot stands."
         do (with-kitchen (projection)
              (let ((?pose (geometry:make-pose x y 0 :yaw 3.13)))
                (plan:perform (plan:a motion (type going) (pose ?pose))))
-             (discrepancy-finder-user::lift-torso height)
-             (discrepancy-finder-user::open-the-drawer :drawer-2 arm)
+             (funcall 'discrepancy-finder-user::lift-torso height)
+             (funcall 'discrepancy-finder-user::open-the-drawer :drawer-2 arm)
              (is (< 0.39 (projection:observed-joint projection "drawer_2_joint"))
                  "~(~a~) arm, robot at ~a ~a" arm x y))))
 
