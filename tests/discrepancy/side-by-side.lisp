@@ -5,7 +5,7 @@
 (def-suite side-by-side :in all)
 (in-suite side-by-side)
 
-(defun documented (command)
+(defun documented-output (command)
   "Return the output of COMMAND that docs/shrinking.md shows."
   (format nil "~{~a~%~}" (rest (text-block "docs/shrinking.md"
                                            (format nil "$ ./discrepancy-finder ~a" command)))))
@@ -13,15 +13,15 @@
 (test the-documentation-shows-a-replay-and-what-shrinking-leaves
   (let* ((file (root-file "discrepancies/move-the-box-1-4b1adfe8.json"))
          (result (df:replay file))
-         (shrunk (documented "shrink")))
-    (is (string= (documented "replay") (df:replay-text result)))
+         (shrunk (documented-output "shrink")))
+    (is (string= (documented-output "replay") (df:replay-text result)))
     (is (eql 0 (search (subseq shrunk 0 (search "  ..." shrunk))
                        (df:shrinking-text
                         (df:shrink-discrepancy (discrepancy:replay-discrepancy result))))))))
 
 (defun example-steps ()
   "Return what a replay of the example's discrepancy of seed 1 tells of its steps."
-  (let ((text (documented "replay")))
+  (let ((text (documented-output "replay")))
     (subseq text (search "  initially" text) (search "  theory and simulation part" text))))
 
 (test a-replay-is-told-side-by-side

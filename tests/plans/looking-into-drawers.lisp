@@ -28,7 +28,7 @@
       (finding-words (first findings) "others-start-on-the-workspace" "says nothing")
       (finding-words (second findings) "(in spoon drawer-1)" "(in spoon drawer-3)" "at 0"))))
 
-(test the-spoon-is-in-one-of-three-drawers
+(test plan-3-finds-the-spoon-in-any-of-three-drawers
   (multiple-value-bind (domain exploration) (drawers-exploration)
     (declare (ignore domain))
     (let ((traces (df:exploration-traces exploration)))

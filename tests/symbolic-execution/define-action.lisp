@@ -9,7 +9,7 @@
 (defclass kitchen-domain (symbolic:action-theory) ())
 
 (defparameter *kitchen-theory* "
-(define-theory kitchen
+(define-theory toy-kitchen
   (:sorts (thing cup bowl) (place shelf table door))
   (:fluents (location thing place) (detected thing) (robot-at place) (blocked place))
   (:events (detect thing) (go place) (stop-halfway place) (drop thing place))
@@ -41,7 +41,7 @@
 
 (defparameter *kitchen-actions* "
 (define-action (motion going) (?target)
-  (:domain kitchen)
+  (:domain toy-kitchen)
   (:event (go ?target))
   (:requires (not (blocked ?target)))
   (:failure navigation-goal-not-reached
@@ -49,31 +49,31 @@
   (:failure navigation-pose-unreachable
             :when (and (blocked ?target) (robot-at door))))
 (define-action (motion detecting) (object)
-  (:domain kitchen)
+  (:domain toy-kitchen)
   (:event (detect (desig-prop-value object :type)))
   (:returns (let ((?type (desig-prop-value object :type)))
               (let ((?place (value-of (location (desig-prop-value object :type) ?place) ?place))
                     (?seen (truth-of (detected ?type))))
                 (an object (type ?type) (location ?place) (name ?seen))))))
 (define-action (action dropping) (object place)
-  (:domain kitchen)
+  (:domain toy-kitchen)
   (:event (drop object place)))
 ")
 
 (defun make-kitchen ()
   (with-file (file *kitchen-theory*)
     (symbolic:register-action-theory
-     (make-instance 'kitchen-domain :name :kitchen :theory (ec:load-theory file))))
+     (make-instance 'kitchen-domain :name :toy-kitchen :theory (ec:load-theory file))))
   (with-file (file *kitchen-actions*)
     (plan:load-plan file))
-  (symbolic:find-action-theory :kitchen))
+  (symbolic:find-action-theory :toy-kitchen))
 
 (defun explore-kitchen (text &rest options)
   "Define the plan in TEXT, which is named kitchen-plan, and explore it."
   (make-kitchen)
   (with-file (file text)
     (plan:load-plan file)
-    (apply #'symbolic:explore-plan 'discrepancy-finder-user::kitchen-plan :domain :kitchen
+    (apply #'symbolic:explore-plan 'discrepancy-finder-user::toy-kitchen-plan :domain :toy-kitchen
            options)))
 
 (defun step-lists (exploration)
@@ -244,7 +244,7 @@
 (defun define-in-kitchen (&rest clauses)
   (make-kitchen)
   (eval `(symbolic:define-action (motion testing) (?thing place)
-           (:domain kitchen) ,@clauses)))
+           (:domain toy-kitchen) ,@clauses)))
 
 (test clauses-are-checked-by-the-theory
   "Each sentence names the action, the clause and what was expected."
@@ -279,7 +279,7 @@
 
 (test clauses-have-shapes
   (flet ((expand (&rest clauses)
-           (macroexpand-1 `(symbolic:define-action (motion testing) (place) (:domain kitchen)
+           (macroexpand-1 `(symbolic:define-action (motion testing) (place) (:domain toy-kitchen)
                              ,@clauses))))
     (signals-with (plan:malformed-plan-form "exactly one clause (:event") (expand))
     (signals-with (plan:malformed-plan-form "exactly one clause (:event")
@@ -293,15 +293,15 @@
     (signals-with (plan:malformed-plan-form "one thing after :requires")
       (expand '(:event (go place)) '(:requires))))
   (signals-with (plan:malformed-plan-form "(motion type) or (action type)")
-    (macroexpand-1 '(symbolic:define-action (object cup) () (:domain kitchen))))
+    (macroexpand-1 '(symbolic:define-action (object cup) () (:domain toy-kitchen))))
   (signals-with (plan:malformed-plan-form "a list of variables, the properties, each once")
-    (macroexpand-1 '(symbolic:define-action (motion testing) (:place) (:domain kitchen)))))
+    (macroexpand-1 '(symbolic:define-action (motion testing) (:place) (:domain toy-kitchen)))))
 
 (test errors-in-bindings-name-file-and-line
   (make-kitchen)
   (with-file (file "
 (define-action (motion testing) (place)
-  (:domain kitchen)
+  (:domain toy-kitchen)
   (:event (go place))
   (:requires (near place)))")
     (signals-with (symbolic:action-problem
