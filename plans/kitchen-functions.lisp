@@ -1,8 +1,8 @@
 ;;;; What the plans in the kitchen have in common: where the robot stands for what, and how it takes
 ;;;; an object from the workspace or out of a drawer and brings it to the table.
 ;;;;
-;;;; The poses are fixed, as in the paper's plans.  The right arm opens and closes the drawers, whose
-;;;; handles are 0.1 m to the right of the middle of the robot; the left arm carries.
+;;;; The poses are fixed, as in the paper's plans.  The right arm opens and closes the drawers,
+;;;; whose handles are 0.1 m to the right of the middle of the robot; the left arm carries.
 ;;;;
 ;;;; A plan's file loads this one by
 ;;;;   (load-plan (merge-pathnames "kitchen-functions.lisp" *load-truename*))

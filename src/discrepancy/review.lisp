@@ -124,9 +124,9 @@ or NIL, and why it does not show again, a text, or NIL."
 
 (defun review-of-verification (verification &key (store *default-store*) files)
   "Return the REVIEW of VERIFICATION, which was made with the option :COVERAGE T, by the
-discrepancies in the folder STORE, or in FILES, of its domain and of those that share axioms with it.
-Each is replayed; the plans and domains that the files name are loaded unless they are defined.  Signals
-COVERAGE-NOT-RECORDED."
+discrepancies in the folder STORE, or in FILES, of its domain and of those that share axioms with
+it.  Each is replayed; the plans and domains that the files name are loaded unless they are defined.
+Signals COVERAGE-NOT-RECORDED."
   (let* ((grounds (verdict-grounds verification))
          (domain (symbolic:exploration-domain (symbolic:verification-exploration verification)))
          (doubts '()) (gone '()) (replayed 0))

@@ -24,7 +24,8 @@
   (:export
    ;; scenes
    #:load-scene #:scene #:scene-name #:scene-file #:scene-files #:scene-parameters #:scene-parameter
-   #:scene-with-parameters #:scene-with-items #:normalized-parameters #:scene-body-pose #:check-movable
+   #:scene-with-parameters #:scene-with-items #:normalized-parameters #:scene-body-pose
+   #:check-movable
    #:scene-item-names #:scene-item-type #:scene-item-grasps #:scene-tolerances
    #:scene-open-tolerances
    #:scene-knows-p

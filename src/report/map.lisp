@@ -1,8 +1,8 @@
 ;;;; The map: a top view of the scene with regions, samples and the paths driven.
 ;;;;
 ;;;; From the bottom to the top: fixtures, regions, the paths of passing samples, that of the
-;;;; failing one with the steps along it, where robot and items began and ended, the samples.  A sample is a
-;;;; dot for each body that it places: blue if it passed, a red cross if it failed.
+;;;; failing one with the steps along it, where robot and items began and ended, the samples.  A
+;;;; sample is a dot for each body that it places: blue if it passed, a red cross if it failed.
 
 (in-package #:discrepancy-finder.report)
 

@@ -251,8 +251,8 @@ discrepancy."
 (defun write-report (result file &key (command "./discrepancy-finder"))
   "Write RESULT, a SEARCH-RESULT, to FILE as one HTML page that needs nothing else, and return its
 name.  The page shows verdict and sentence, what happened, a map with regions, samples and paths,
-the steps on both sides, and how COMMAND replays it; it holds the JSON of RESULT.  For the pictures some
-samples are run again.  Signals REPLAY-ERROR if FILE cannot be written."
+the steps on both sides, and how COMMAND replays it; it holds the JSON of RESULT.  For the pictures
+some samples are run again.  Signals REPLAY-ERROR if FILE cannot be written."
   (let ((page (node-text (page-node result (discrepancy:result-json result) command))))
     (discrepancy:write-file-whole file (format nil "<!DOCTYPE html>~%~a" page))
     (source:native-name (source:native-path file))))

@@ -85,7 +85,8 @@
     (is (equal '(:consistent 1 (((:holding-box) t nil)))
                (verdict-steps-of (two-regions) run trace :comparison :exact)))
     (is (equal '(:discrepancy 1 (((:holding-box) t nil)))
-               (verdict-steps-of (two-regions) run trace :comparison :exact :compare :every-step)))))
+               (verdict-steps-of (two-regions) run trace
+                                 :comparison :exact :compare :every-step)))))
 
 (test a-run-beyond-its-trace-is-judged-exactly-only-along-it
   (let* ((trace (example-trace))
@@ -99,7 +100,8 @@
     (is (equal '(:discrepancy 1 (((:holding-box) t nil)))
                (verdict-steps-of (two-regions) lost short :comparison :exact))
         "the state after the trace's last step is the one to compare")
-    (is (equal '(:consistent 1 (((:holding-box) t nil))) (verdict-steps-of (two-regions) lost short))
+    (is (equal '(:consistent 1 (((:holding-box) t nil)))
+               (verdict-steps-of (two-regions) lost short))
         "the run's last state is as the theory says")))
 
 (test what-is-impossible-only-together

@@ -1,11 +1,11 @@
 ;;;; Why the theory says what it says: the axioms and the inertia behind a divergence.
 ;;;;
 ;;;; A run is told to the bounded reasoner as facts: what is the case at a MOMENT, a timepoint of
-;;;; the run, and the events after it.  A CLAIM is a fluent's value after the divergent step, or that
-;;;; the step cannot have ended as it did; its minimal core names the axioms.  The shortest piece of the
-;;;; run from which the claim follows is taken, one step as a rule, and for each fact that the claim
-;;;; rests on its ORIGIN is told: the step that brought it about.  Entry points: STATE-CLAIMS,
-;;;; OUTCOME-CLAIM and REQUIREMENT-CLAIM.
+;;;; the run, and the events after it.  A CLAIM is a fluent's value after the divergent step, or
+;;;; that the step cannot have ended as it did; its minimal core names the axioms.  The shortest
+;;;; piece of the run from which the claim follows is taken, one step as a rule, and for each fact
+;;;; that the claim rests on its ORIGIN is told: the step that brought it about.  Entry points:
+;;;; STATE-CLAIMS, OUTCOME-CLAIM and REQUIREMENT-CLAIM.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -95,7 +95,8 @@ LAST."
 (defun piece-of-run (domain moment run last &key event condition)
   "Return the theory of DOMAIN with the facts of MOMENT and the events of the steps of RUN from
 there to the step before LAST; with EVENT, a list, that happens in step LAST, and the CONDITION, a
-formula about that time.  What the theory says of the beginning is left out unless MOMENT is the beginning."
+formula about that time.  What the theory says of the beginning is left out unless MOMENT is the
+beginning."
   (let ((theory (symbolic:action-theory-theory domain))
         (first (moment-time moment)))
     (ec:revised-theory

@@ -1,8 +1,8 @@
 ;;;; Comparisons: theory and simulation side by side, step by step.
 ;;;;
 ;;;; STEP-COMPARISONS tells for each step of a run what the theory says of each observed fluent
-;;;; after it, true, false or open, what the simulation has, and whether the two go together.  After an
-;;;; outcome that the theory forbids it says nothing more.
+;;;; after it, true, false or open, what the simulation has, and whether the two go together.  After
+;;;; an outcome that the theory forbids it says nothing more.
 
 (in-package #:discrepancy-finder.discrepancy)
 

@@ -29,8 +29,8 @@ that takes a distinction of cases.")
 (setf (documentation 'explanation-axioms 'function)
       "Return the list of the names of the theory's axioms that an explanation rests on."
       (documentation 'explanation-persistent 'function)
-      "Return the list of the (fluent timepoint) that an explanation takes to persist, by inertia, to
-the next timepoint.")
+      "Return the list of the (fluent timepoint) that an explanation takes to persist, by inertia,
+to the next timepoint.")
 
 (defmethod print-object ((explanation explanation) stream)
   (print-unreadable-object (explanation stream :type t)

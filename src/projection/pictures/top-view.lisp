@@ -147,10 +147,10 @@
                chunks)))
 
 (defun outlines-from-above (projection)
-  "Return the outlines of what is in PROJECTION, as it is now, as seen from above, the lowest first: a
-list of (role name points color), where the role is :ITEM, :ROBOT or :FIXTURE, the name that of the
-part of the scene, points a list of (x y) in m, and the color a text such as #d0b090.  Walls have the
-role :WALL; ground and ceilings are left out."
+  "Return the outlines of what is in PROJECTION, as it is now, as seen from above, the lowest first:
+a list of (role name points color), where the role is :ITEM, :ROBOT or :FIXTURE, the name that of
+the part of the scene, points a list of (x y) in m, and the color a text such as #d0b090.  Walls
+have the role :WALL; ground and ceilings are left out."
   (loop for chunk in (stable-sort (below-ceilings (remove :ground (projection-chunks projection)
                                                           :key #'chunk-role))
                                   #'< :key #'chunk-top)

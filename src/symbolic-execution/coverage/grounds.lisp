@@ -1,8 +1,9 @@
 ;;;; Grounds: what of a theory the outcome of an exploration rests on.
 ;;;;
 ;;;; The GROUNDS of a step are the axioms that say something of it, the fluents that keep their
-;;;; truth value by inertia through its event, and the action binding.  Those of a trace are its steps'
-;;;; together; those of an exploration, which must record its coverage, are those of all its paths.
+;;;; truth value by inertia through its event, and the action binding.  Those of a trace are its
+;;;; steps' together; those of an exploration, which must record its coverage, are those of all its
+;;;; paths.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
