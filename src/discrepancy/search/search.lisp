@@ -222,8 +222,8 @@ return a SEARCH-RESULT.
   SHRINK, EXPLAIN true: make a discrepancy smaller, and explain it
   PROGRESS        NIL, or a function that is called after each sample, and where another phase
                   begins, with the keyword arguments :PHASE (its name), :TRACE (its number, from
-                  1), :SIMULATIONS, :REJECTED (samples of this trace), :DISCREPANCIES (kinds), :SECONDS and
-                  :VERDICT (of the confidence rule, or NIL)
+                  1), :SIMULATIONS, :REJECTED (samples of this trace), :DISCREPANCIES (kinds),
+                  :SECONDS and :VERDICT (of the confidence rule, or NIL)
   PARAMETERS      a property list of scene parameters that override the scene's
   ARGUMENTS       a list of (parameter type): symbolic arguments of the plan
   EXECUTION       :TRACE (stop where a run leaves the trace) or :PLAN (run to the plan's end)
