@@ -219,6 +219,10 @@
                (princ-to-string (desig:make-designator :motion '((:v (1 . 2)))))))
   (is (string= "#<A MOTION (V (1 . 2))>"
                (prin1-to-string (desig:make-designator :motion '((:v (1 . 2)))))))
+  (let ((*print-circle* t)
+        (object (desig:an object (type box))))
+    (is (string= "(an action (object (an object (type box))))"
+                 (princ-to-string (desig:make-designator :action `((:object ,object)))))))
   (let ((*print-right-margin* 20) (*print-pretty* t))
     (is (null (find #\Newline (prin1-to-string (desig:a motion (type going) (target place)
                                                          (speed 1) (direction forward))))))))

@@ -60,7 +60,7 @@ packages, strings in quotes."
     (write-readably property stream)))
 
 (defmethod print-object ((designator designator) stream)
-  (let ((*print-pretty* nil))
+  (let ((*print-pretty* nil) (*print-circle* nil))
     (cond ((not (slot-boundp designator 'description)) (call-next-method))
           (*print-escape*
            (write-string (with-output-to-string (text)

@@ -67,6 +67,7 @@ search, replay.")
    #:discrepancy-parameters #:discrepancy-confirmed-p #:discrepancy-domain
    #:discrepancy-constraint #:discrepancy-execution #:discrepancy-compare
    #:discrepancy-comparison #:discrepancy-origin #:discrepancy-occurrences #:discrepancy-runs
+   #:discrepancy-other-runs
    #:discrepancy-kind #:kind-text #:discrepancy-explanation #:discrepancy-shrunk
    ;; plans and domains by name
    #:ensure-plan #:ensure-domain #:locate-file #:use-data-directories

@@ -20,7 +20,7 @@
 (defun search-options (options)
   "Return the arguments for FIND-DISCREPANCIES that OPTIONS of the subcommand find mean."
   (append
-   (loop for key in '(:constraint :rule :sampler :execution :compare :comparison)
+   (loop for key in '(:constraint :rule :sampler :execution :compare :comparison :traces)
          for text = (getf options key)
          when text append (list key (keyword-argument text)))
    (loop for key in '(:seed :budget :resume)
@@ -94,6 +94,8 @@ written is complained about, but a discrepancy is still one."
      (("compare") :type string :documentation "final or every-step (final)")
      (("comparison") :type string
       :documentation "consistent with the theory, or exact: as in the trace (consistent)")
+     (("traces") :type string
+      :documentation "last: one trace a path, or every-state: one for each initial state (last)")
      (("store") :type string
       :documentation "folder of discrepancies, retried first, or none (discrepancies/)")
      (("resume") :type string

@@ -134,6 +134,41 @@
         (is (null (discrepancy:candidate-edits
                    (short-arm-discrepancy trace (first passing)))))))))
 
+(test runs-of-other-traces-check-edits-too
+  (let ((trace (example-trace)))
+    (multiple-value-bind (passing failing) (runs-with-short-arm trace)
+      (let ((discrepancy (discrepancy-of (two-regions) failing trace
+                                         :sample (discrepancy::run-sample failing))))
+        (setf (discrepancy:discrepancy-other-runs discrepancy)
+              (loop for run in passing collect (cons run (discrepancy:judge-run (two-regions) run
+                                                                                trace))))
+        (is (= 4 (discrepancy:edit-runs (first (discrepancy:candidate-edits discrepancy)))))
+        (is (search "candidate edits, checked against 3 runs of other traces, too"
+                    (discrepancy:explanation-text
+                     (discrepancy:explain-discrepancy discrepancy :max-runs 0))))))))
+
+(test regions-are-not-refined-by-runs-from-other-regions
+  "Where the box begins in the other region it is not its coordinate that matters."
+  (let* ((trace (example-trace))
+         (domain (discrepancy:domain-with-parameters (two-regions) '(:reach 0.5)))
+         (far (run-of trace 0.5 0.5 0 1.9 0.4 0))
+         (near (run-of trace 0.5 0.5 0 1.5 0.4 0))
+         (divergence (discrepancy:judgement-divergence
+                      (discrepancy:judge-run domain far trace))))
+    (flet ((edits (near)
+             (z3:with-context (context)
+               (let ((runs (append (make-list 20 :initial-element far)
+                                   (make-list 20 :initial-element near))))
+                 (discrepancy::region-edits
+                  domain (nth 1 (discrepancy::run-transitions domain far)) divergence far runs
+                  (loop for run in runs collect (discrepancy::agreement domain run context)))))))
+      (is-true (edits near))
+      (let ((elsewhere (copy-structure near)))
+        ;; Something that the theory does not know of was otherwise.
+        (setf (slot-value elsewhere 'discrepancy::initial-state)
+              (append (discrepancy:run-initial-state near) '(((:elsewhere) . t))))
+        (is (null (edits elsewhere)))))))
+
 (test a-wrong-edit-is-contradicted
   (let ((trace (example-trace)) (domain (two-regions)))
     (multiple-value-bind (passing failing) (runs-with-short-arm trace)

@@ -101,6 +101,14 @@
     (is (= 34 (length common)))
     (is (= 60 (discrepancy:trace-result-samples trace)))))
 
+(test targeted-samples-are-told-from-blind-ones
+  "Both are numbered from 0."
+  (let ((result (find-in-example 0.55 :rule :sound :seed 7 :targets t)))
+    (is (eq :targeted (discrepancy:discrepancy-origin (df:result-discrepancy result))))
+    (is (search "initial state of the simulation (targeted sample" (df:result-text result))))
+  (let ((result (find-in-example 0.5 :rule :sound :seed 3)))
+    (is (search "initial state of the simulation (sample" (df:result-text result)))))
+
 (test targets-find-what-lies-at-the-border
   "With an arm of 0.63 m the box is out of reach in the ends of r2 alone."
   (flet ((needed (targets)

@@ -162,6 +162,7 @@
     (df:find-discrepancies 'discrepancy-finder-user::move-the-box :domain :two-regions
                                                                   :parameters '((reach 0.5))))
   (is (eq :certified (df:result-status (find-in-example 0.8 :rule 'paper))))
+  (signals-with (df:invalid-argument "traces" ":every-state") (find-in-example 0.8 :traces :all))
   (signals-with (df:invalid-argument "execution") (find-in-example 0.8 :execution :quickly))
   (signals-with (df:state-constraint-not-found "nowhere")
     (find-in-example 0.8 :constraint 'nowhere))

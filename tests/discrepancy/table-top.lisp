@@ -92,3 +92,13 @@
                                        :parameters '(:camera-field-of-view 0.9))))
     (is (eq :discrepancy (df:result-status result)))
     (is (search "detecting" (df:result-text result)))))
+
+(test a-find-keeps-what-was-seen-of-earlier-traces
+  "With a wide camera the first trace agrees, and the second does not."
+  (let* ((result (df:find-discrepancies *find-object* :domain :table-top :seed 1
+                                        :parameters '(:camera-field-of-view 2)))
+         (discrepancy (df:result-discrepancy result)))
+    (is (= 2 (df:result-iterations result)))
+    (is-true (discrepancy:discrepancy-other-runs discrepancy))
+    (is (equal (discrepancy:trace-result-runs (first (discrepancy:result-traces result)))
+               (discrepancy:discrepancy-other-runs discrepancy)))))

@@ -168,6 +168,10 @@ with them."
                   (slot-value discrepancy 'runs)
                   '())))
 
+(defun other-runs (discrepancy)
+  "Return the runs of other traces than that of DISCREPANCY that the search has made."
+  (plain-runs (discrepancy-other-runs discrepancy)))
+
 (defun without-guesses (edits)
   "Return EDITS, best first, without the guesses where something better removes the discrepancy and
 contradicts nothing; else with the best two."
@@ -179,11 +183,14 @@ contradicts nothing; else with the best two."
         (let ((more (nthcdr 2 (remove-if-not #'guess-p edits))))
           (remove-if (lambda (edit) (member edit more)) edits)))))
 
-(defun candidate-edits (discrepancy &key (runs (known-runs discrepancy)) guesses)
+(defun candidate-edits (discrepancy &key (runs (append (known-runs discrepancy)
+                                                       (other-runs discrepancy)))
+                                      guesses)
   "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
 checked by judging again RUNS, a list of valid runs or of (RUN . JUDGEMENT) in the same domain, and
-the run of DISCREPANCY itself.  By default RUNS are those of the same trace that the search has
-made.  With GUESSES preconditions of what has succeeded in no run are not left out."
+the run of DISCREPANCY itself.  By default RUNS are those that the search had
+made, of this trace and of earlier ones.  With GUESSES preconditions of what has succeeded in no run
+are not left out."
   (let* ((run (discrepancy-run discrepancy))
          (runs (adjoin run (plain-runs runs)))
          (edits (z3:with-context (context)

@@ -153,13 +153,17 @@ SEPARATING-RANGES, or NIL."
 
 (defun region-edits (domain transition divergence run runs agreed)
   "Return the parts of edits that refine a region for DIVERGENCE of RUN, one of RUNS, at TRANSITION.
-AGREED tells how far the theory agrees with RUNS."
-  (let* ((own (nth (position run runs) agreed))
+AGREED tells how far the theory agrees with RUNS.  Only runs from the same discrete initial state
+are compared: where bodies are in other regions it is not their coordinates that matter."
+  (let* ((alike (mapcar (lambda (other)
+                          (equal (run-initial-state other) (run-initial-state run)))
+                        runs))
+         (own (nth (position run runs) agreed))
          (past (* 2 (1+ (divergence-step divergence))))
-         (good (loop for run in runs for far in agreed
-                     when (>= far past) collect (run-sample run)))
-         (bad (loop for run in runs for far in agreed
-                    when (= far own) collect (run-sample run)))
+         (good (loop for run in runs for far in agreed for alike-p in alike
+                     when (and alike-p (>= far past)) collect (run-sample run)))
+         (bad (loop for run in runs for far in agreed for alike-p in alike
+                    when (and alike-p (= far own)) collect (run-sample run)))
          (parameters (separable-parameters (run-sample run) (append good bad)))
          (transitions (loop for run in runs append (remove nil (run-transitions domain run)))))
     (when (and good (<= (separation-chance (length parameters) (length good) (length bad))

@@ -13,7 +13,8 @@
 theory says after the step, or would have said; ENDING is its claim that the step cannot have ended
 as it did, with the CONDITION under which it could, a clause.  Where the action binding has no such
 outcome OUTCOMES are the names of those that it has, and ENDING is the claim that the CONDITION of
-success held.  Where the states differ there is no ENDING."
+success held.  Where the states differ there is no ENDING.  OTHERS counts the runs of other traces
+against which the EDITS were checked, too."
   (step 0 :type (integer 0) :read-only t)
   (action "" :type string :read-only t)
   (event '() :type list :read-only t)
@@ -28,6 +29,7 @@ success held.  Where the states differ there is no ENDING."
   (agreeing 0 :type (integer 0) :read-only t)
   (differing 0 :type (integer 0) :read-only t)
   (probes 0 :type (integer 0) :read-only t)
+  (others 0 :type (integer 0) :read-only t)
   (edits '() :type list :read-only t))
 
 (setf (documentation 'explanation-step 'function)
@@ -156,14 +158,16 @@ out which coordinates decide; with 0 none are made.  EXPLANATION-TEXT tells it i
            (known (if (find (discrepancy-run discrepancy) known :key #'car)
                       known
                       (append known (list (cons (discrepancy-run discrepancy)
-                                                (discrepancy-judgement discrepancy)))))))
+                                                (discrepancy-judgement discrepancy))))))
+           (others (other-runs discrepancy)))
       (multiple-value-bind (influences probes count)
           (find-influences discrepancy known :max-runs max-runs :max-seconds max-seconds
                                              :context context)
         (apply #'make-explanation
-               :influences influences :probes count
+               :influences influences :probes count :others (length others)
                :agreeing (count-if #'agreeing-p known :key #'cdr)
                :differing (count-if-not #'agreeing-p known :key #'cdr)
                :edits (candidate-edits discrepancy
-                                       :runs (mapcar #'car (append known probes)))
+                                       :runs (append (mapcar #'car (append known probes))
+                                                     others))
                (theory-side discrepancy))))))

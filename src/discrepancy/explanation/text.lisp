@@ -179,7 +179,9 @@ observed-in-the-run-3)\"."
                    '("none was found.")))
       (lines 4 (list (runs-text explanation)))
       (when (explanation-edits explanation)
-        (format stream "  candidate edits~%")
+        (format stream "  candidate edits~[~:;~:*, checked against ~d run~:p of other traces, ~
+                        too~]~%"
+                (explanation-others explanation))
         (loop for edit in (explanation-edits explanation)
               for number from 1
               do (format stream "    ~d. ~a~%       ~a~%" number (edit-text edit)

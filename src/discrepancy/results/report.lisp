@@ -30,8 +30,11 @@
   (format stream "    finally ~a~%"
           (state-text (ec:state-fluents (symbolic:trace-final-state trace)))))
 
-(defun describe-sample (domain sample stream)
-  (format stream "  initial state of the simulation~@[ (sample ~d)~]~%" (sample-index sample))
+(defun describe-sample (domain sample stream &optional targeted-p)
+  "Targeted samples have numbers of their own."
+  (format stream "  initial state of the simulation~@[ (~a)~]~%"
+          (and (sample-index sample)
+               (format nil "~:[~;targeted ~]sample ~d" targeted-p (sample-index sample))))
   (let ((poses (sample-poses (domain-scene domain) sample)))
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
@@ -76,7 +79,8 @@ and simulation part, both final states, and how COMMAND replays it."
   (with-output-to-string (stream)
     (describe-trace (discrepancy-trace discrepancy) stream)
     (describe-shrinking discrepancy stream)
-    (describe-sample (discrepancy-domain discrepancy) (discrepancy-sample discrepancy) stream)
+    (describe-sample (discrepancy-domain discrepancy) (discrepancy-sample discrepancy) stream
+                     (eq (discrepancy-origin discrepancy) :targeted))
     (describe-divergence discrepancy stream)
     (format stream "  final state~%    theory:     ~a~%    simulation: ~a~@[ (stopped after step ~
                     ~d)~]~%"

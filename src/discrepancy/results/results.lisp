@@ -7,7 +7,8 @@
 (defstruct (discrepancy (:copier nil))
   "A sample from which the simulation does what the theory does not allow.  ORIGIN is :BLIND,
 :TARGETED or :REUSED; OCCURRENCES counts the finds of the same kind, this one included; RUNS is a
-list of (run . judgement), what the search had seen of the trace until then."
+list of (run . judgement), what the search had seen of the trace until then, OTHER-RUNS what it had
+seen of traces before."
   (plan nil :read-only t)
   (domain nil :read-only t)
   (constraint nil :read-only t)
@@ -25,6 +26,7 @@ list of (run . judgement), what the search had seen of the trace until then."
   (origin :blind :type (member :blind :targeted :reused) :read-only t)
   (occurrences 1 :type (integer 1))
   (runs '() :type list)
+  (other-runs '() :type list)
   (explanation nil)
   (shrunk nil)
   (file nil :type (or null string)))
@@ -67,6 +69,9 @@ store."
       (documentation 'discrepancy-runs 'function)
       "Return what the search had seen of the trace: a list of (RUN . JUDGEMENT) of valid runs in
 the order in which they were made, the discrepancy's own last; at most 1000."
+      (documentation 'discrepancy-other-runs 'function)
+      "Return what the search had seen of earlier traces, a list of (RUN . JUDGEMENT) as by
+DISCREPANCY-RUNS; at most 1000 of each trace.  Candidate edits are checked against these, too."
       (documentation 'discrepancy-explanation 'function)
       "Return the explanation of a discrepancy, or NIL."
       (documentation 'discrepancy-shrunk 'function)

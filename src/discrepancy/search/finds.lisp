@@ -77,11 +77,17 @@ the journal is replaced by the second one."
               (format nil "~d discrepancies of known kinds in a row"
                       (trace-search-repeated trace-search)))))
 
+(defun runs-of-earlier-traces (search)
+  "Return the list of (run . judgement) that SEARCH has kept of the traces it is done with."
+  (loop for result in (reverse (search-results search))
+        append (trace-result-runs result)))
+
 (defun note-new-kind (trace-search discrepancy)
   "Examine and keep DISCREPANCY; conclude if that is what is wanted."
   (let ((search (trace-search-search trace-search)))
     ;; What is kept at once stays if the search is ended meanwhile.
-    (setf (discrepancy-runs discrepancy) (reverse (trace-search-runs trace-search)))
+    (setf (discrepancy-runs discrepancy) (reverse (trace-search-runs trace-search))
+          (discrepancy-other-runs discrepancy) (runs-of-earlier-traces search))
     (push discrepancy (trace-search-discrepancies trace-search))
     (confirm-find search discrepancy)
     (examine-find search discrepancy)

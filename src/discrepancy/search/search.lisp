@@ -172,7 +172,7 @@ SEARCH-FUNCTION returns where it has to end."
   (check-argument 'rule rule (symbolp rule) "the name of a confidence rule"))
 
 (defun check-search-arguments (&key seed sampler targets rule budget seconds execution compare
-                                 comparison on-discrepancy keep-going store)
+                                 comparison on-discrepancy keep-going store traces)
   (check-argument 'seed seed (typep seed '(unsigned-byte 64)) "an integer from 0 to 2^64 - 1")
   (check-argument 'sampler sampler (member sampler *samplers*)
                   ":independent, :stratified, :sobol or :corners")
@@ -187,6 +187,9 @@ SEARCH-FUNCTION returns where it has to end."
   (check-argument 'compare compare (member compare '(:final :every-step)) ":final or :every-step")
   (check-argument 'comparison comparison (member comparison '(:consistent :exact))
                   ":consistent or :exact")
+  (check-argument 'traces traces
+                  (member traces '(:last :every-instance :first-instance :every-state))
+                  ":last, :every-instance, :first-instance or :every-state")
   (check-argument 'on-discrepancy on-discrepancy (member on-discrepancy '(:return :signal))
                   ":return or :signal"))
 
@@ -243,7 +246,7 @@ UNKNOWN-CONFIDENCE-RULE, INVALID-CONFIDENCE, INVALID-DELTA, UNKNOWN-PARAMETER, J
     (check-search-arguments :seed seed :sampler sampler :targets targets :rule rule :budget budget
                             :seconds seconds :execution execution :compare compare
                             :comparison comparison :on-discrepancy on-discrepancy
-                            :keep-going keep-going :store store)
+                            :keep-going keep-going :store store :traces traces)
     (let* ((plan (ensure-plan plan))
            (domain (ensure-domain domain))
            (parameters (projection:normalized-parameters (domain-scene domain) parameters))
