@@ -160,8 +160,10 @@ document.getElementById('seen').textContent = JSON.stringify(seen);
                             "overflow")))
         (is (= 0 (json-at (seen-with "class=\"map\"" "class=\"map\" style=\"display: none\"")
                           "maps")))
-        (is (plusp (length (json-at (seen-with "</main>" "<img src=\"x.png\"></main>")
-                                    "requests"))))
+        (is (equalp #("http://127.0.0.1:9/x.png")
+                    (json-at (seen-with "</main>"
+                                        "<img src=\"http://127.0.0.1:9/x.png\"></main>")
+                             "requests")))
         (is (null (search "manipulation-pose-unreachable"
                           (json-at (seen-with "manipulation-pose-unreachable" "success")
                                    "banner"))))))))
