@@ -40,7 +40,8 @@ Event Calculus Reasoner, others hold define-theory."
 (define-subcommand "check-theory" (arguments options)
     ("FILE [--horizon N]"
      "Say what looks wrong in a theory: contradictions, axioms and events that do nothing."
-     (("horizon") :type integer :documentation "last timepoint (the theory's own, or 3, or 8 if it has warnings at 3)"))
+     (("horizon") :type integer
+      :documentation "last timepoint (the theory's own, or 3, or 8 if there are warnings at 3)"))
   (let* ((theory (theory-file-argument arguments "check-theory"))
          (findings (ec:check-theory theory :horizon (getf options :horizon))))
     (format t "~{~a~%~}~d finding~:p in ~a~%" findings (length findings) (ec:counts-text theory))

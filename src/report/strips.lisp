@@ -47,7 +47,10 @@ verdict); the values of the first sample are told as numbers if it failed."
     (let ((failing (and (eq (second (first samples)) :failed) (first (first samples)))))
       `(:table (:class "strips")
          (:thead () (:tr () (:th () "Parameter") (:th (:class "number") "from")
-                         (:th () ,(if failing "samples: failed above, passed below" "samples")) (:th (:class "number") "to")
+                         (:th () ,(if failing
+                                      "samples: failed above, passed below"
+                                      "samples"))
+                         (:th (:class "number") "to")
                          ,(and failing '(:th (:class "number") "in the discrepancy"))))
          (:tbody ()
            ,(loop for parameter across parameters

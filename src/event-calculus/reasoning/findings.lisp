@@ -368,8 +368,8 @@ axioms have no instance or never apply, which events can never happen or change 
 fluents never change, are never read, or are open at first, which sorts have no elements and which
 functions no values.
 HORIZON is as for MAKE-REASONER; where the theory has none the last timepoint is 3, or the last that
-an axiom gives by number, and five more where there are warnings of which less is left then.  Signals
-THEORY-NOT-FOUND, NO-HORIZON."
+an axiom gives by number, and five more where there are warnings of which less is left then.
+Signals THEORY-NOT-FOUND, NO-HORIZON."
   (let ((theory (as-theory theory)))
     (if (or horizon (theory-time-range theory))
         (findings-within theory (check-horizon theory horizon))
