@@ -64,16 +64,34 @@
        (is (eql 0 (search "SAME BITS" output)))))))
 
 (test what-cannot-be-written-is-an-error
-  (multiple-value-bind (output errors status)
-      (df-command "find" "move-the-box" "--domain" "two-regions" "--report" "/proc/x.html")
-    (is (search "NO DISCREPANCY" output))
-    (is (search "/proc/x.html" errors))
-    (is (= 2 status)))
+  "Before the search where that can be known: nothing can be written to /proc, and everything until
+the end to /dev/full."
+  (flet ((find-box (&rest words)
+           (apply #'df-command "find" "move-the-box" "--domain" "two-regions"
+                  "--no-shrink" "--no-explain" "--store" "none" words)))
+    (dolist (option '("--json" "--report" "--save"))
+      (dolist (file '("/proc/x.html" "/no/such/folder/x" "/tmp" ""))
+        (multiple-value-bind (output errors status) (find-box option file)
+          (is (string= "" output))
+          (is (search (if (string= file "") option file) errors))
+          (is (= 2 status)))))
+    (multiple-value-bind (output errors status) (find-box "--report" "/dev/full")
+      (is (search "NO DISCREPANCY" output))
+      (is (search "/dev/full" errors))
+      (is (= 2 status)))
+    (multiple-value-bind (output errors status)
+        (find-box "--set" "reach=0.5" "--json" "/dev/full")
+      (is (eql 0 (search "DISCREPANCY" output)))
+      (is (search "/dev/full" errors))
+      (is (= 1 status)))))
+
+(test a-store-that-cannot-be-written-is-said-in-a-sentence
   (multiple-value-bind (output errors status)
       (df-command "find" "move-the-box" "--domain" "two-regions" "--set" "reach=0.5"
-                  "--no-shrink" "--no-explain" "--store" "none" "--json" "/proc/x.json")
-    (is (search "DISCREPANCY" output))
-    (is (search "/proc/x.json" errors))
+                  "--no-shrink" "--no-explain" "--store" "/proc/store")
+    (is (eql 0 (search "DISCREPANCY" output)))
+    (is (eql 0 (search "discrepancy-finder: /proc/store/" errors)) "~a" errors)
+    (is (= 1 (count #\Newline errors)))
     (is (= 1 status))))
 
 (test verifying-has-exit-statuses
@@ -85,7 +103,9 @@
   (complains ("verify" "move-the-box" "--domain" "two-regions") "property")
   (complains ("verify" "move-the-box" "--domain" "two-regions" "--never" "no-such") "no-such")
   (complains ("explain" "no.json") "no.json" "no such file")
-  (complains ("shrink") "one file"))
+  (complains ("shrink") "one file")
+  (complains ("verify" "move-the-box" "--bogus") "no option --bogus")
+  (complains ("explain" "--bogus" "3" "no.json") "no option --bogus"))
 
 (test every-subcommand-has-help
   (let ((output (df-command "--help")))

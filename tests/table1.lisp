@@ -90,6 +90,20 @@ numbers with a point, most of them seconds, are #."
   (is (equal "1 / 3 / 4.0 / 10" (discrepancy-finder::distribution-text '(10 1 2 4 3))))
   (is (equal '((b . 3) (a . 1)) (discrepancy-finder::counted '(b a b b)))))
 
+(test the-readme-shows-table1
+  "The rows of the plans in which something is found; the last takes long."
+  (flet ((rows (lines)
+           (loop for line in lines
+                 for words = (remove "" (uiop:split-string line) :test #'string=)
+                 when (find (first words) '("setting" "bowl" "looking") :test #'equal)
+                   collect (substitute-if "#" #'decimal-word-p words))))
+    (let ((discrepancy-finder::*table1* (subseq discrepancy-finder::*table1* 0 3)))
+      (is (equal (subseq (rows (readme-block "Table I,")) 0 3)
+                 (subseq (rows (uiop:split-string
+                                (with-output-to-string (stream) (df:table1 :stream stream))
+                                :separator '(#\Newline)))
+                         0 3))))))
+
 (test table1-takes-positive-numbers-of-seeds
   (signals-with (df:invalid-argument "seeds")
     (df:table1 :seeds 0))

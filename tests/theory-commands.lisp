@@ -174,6 +174,16 @@
     (is (string= "" errors))
     (is (= 0 status))))
 
+(test check-theory-finds-nothing-wrong-in-the-kitchen
+  "To take a spoon out of a drawer needs more than three steps."
+  (multiple-value-bind (output errors status)
+      (df-command "check-theory" (root-file "models/kitchen/theory.lisp"))
+    (is (search "note: (in spoon drawer-1)" output))
+    (is (uiop:string-prefix-p "1 finding in 7 sorts, 2 predicates, 16 fluents, 10 events, 59 axioms"
+                              (last-line output)))
+    (is (string= "" errors))
+    (is (= 0 status))))
+
 (test check-theory-of-a-contradiction
   (dolist (name '("inconsistency-2.lisp" "inconsistency-2.e"))
     (multiple-value-bind (output errors status) (df-command "check-theory" (theory-path name))

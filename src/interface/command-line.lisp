@@ -141,10 +141,13 @@ top-level plans, a name; or a name."
     (terpri stream)
     (arguments:show-option-help (subcommand-options subcommand) :stream stream)))
 
+(defun option-named (word subcommand)
+  "Return the specification of the option WORD of SUBCOMMAND, or NIL."
+  (find (subseq word 2) (subcommand-options subcommand) :key #'caar :test #'string=))
+
 (defun flag-p (subcommand word)
   "Return true if WORD is an option of SUBCOMMAND that takes no value."
-  (let ((option (find (subseq word 2) (subcommand-options subcommand)
-                      :key #'caar :test #'string=)))
+  (let ((option (option-named word subcommand)))
     (and option (eq (getf (rest option) :type) 'boolean))))
 
 (defun options-first (subcommand words)
@@ -154,6 +157,9 @@ top-level plans, a name; or a name."
           for word = (pop words)
           do (cond ((not (uiop:string-prefix-p "--" word)) (push word others))
                    ((or (find #\= word) (flag-p subcommand word)) (push word options))
+                   ((not (option-named word subcommand))
+                    (usage-problem "There is no option ~a; see discrepancy-finder ~a --help."
+                                   word (subcommand-name subcommand)))
                    ((null words) (usage-problem "~a needs a value." word))
                    (t (push word options) (push (pop words) options))))
     (append (nreverse options) (nreverse others))))

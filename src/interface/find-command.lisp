@@ -43,6 +43,35 @@
         (write-line text)
         (discrepancy:write-file-whole file (format nil "~a~%" text)))))
 
+(defun check-writable (file option)
+  "Signal an error if FILE, the value of OPTION, cannot be written: a search may take hours.  A pipe
+or a device is left alone."
+  (when (or (string= file "") (and (string= file "-") (string/= option "--json")))
+    (usage-problem "~a is ~s where the name of a file was expected." option file))
+  (let* ((path (source:native-path file))
+         (there (ignore-errors (probe-file path))))
+    (when (if there
+              (member (sb-impl::native-file-kind (source:native-name there)) '(:file :directory))
+              (string/= file "-"))
+      (handler-case
+          (progn (close (open path :direction :output :if-exists :append
+                                   :if-does-not-exist :create))
+                 (unless there (uiop:delete-file-if-exists path)))
+        ((or stream-error file-error) ()
+          (usage-problem "~a: it cannot be written." file))))))
+
+(defun check-files (options)
+  "Signal an error if a file cannot be written that OPTIONS name."
+  (loop for (key name) in '((:save "--save") (:json "--json") (:report "--report"))
+        when (getf options key) do (check-writable (getf options key) name)))
+
+(defun call-complaining-of-warnings (function)
+  "Call FUNCTION; its warnings are sentences on standard error, as errors are."
+  (handler-bind ((warning (lambda (condition)
+                            (complain condition)
+                            (muffle-warning condition))))
+    (funcall function)))
+
 (defun deliver-result (result options)
   "Print RESULT, write the files that OPTIONS name, and return the exit status.  What cannot be
 written is complained about, but a discrepancy is still one."
@@ -108,8 +137,11 @@ written is complained about, but a discrepancy is still one."
   (let* ((plan (plan-argument arguments))
          (domain (domain-argument options))
          (search-options (search-options options)))
+    (check-files options)
     (deliver-result (call-with-progress
                      (lambda (progress)
-                       (apply #'find-discrepancies plan :domain domain :progress progress
-                              search-options)))
+                       (call-complaining-of-warnings
+                        (lambda ()
+                          (apply #'find-discrepancies plan :domain domain :progress progress
+                                 search-options)))))
                     options)))

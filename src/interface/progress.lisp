@@ -8,7 +8,7 @@
 (in-package #:discrepancy-finder)
 
 (defparameter *progress-interval* 0.1d0
-  "The least time (s) between two changes of the line.")
+  "The least time (s) between two changes of the line in one phase.")
 
 (defparameter *phase-texts*
   '((:explore . "exploring the plan") (:reuse . "retrying stored discrepancies")
@@ -42,11 +42,12 @@
   "Return a function for the option PROGRESS of a search that writes its line on STREAM, or NIL if
 that is no terminal."
   (when (terminal-p stream)
-    (let ((last nil))
+    (let ((last nil) (last-phase nil))
       (lambda (&rest report)
-        (let ((now (foreign:monotonic-seconds)))
-          (when (or (null last) (>= (- now last) *progress-interval*))
-            (setf last now)
+        (let ((now (foreign:monotonic-seconds)) (phase (getf report :phase)))
+          (when (or (null last) (not (eq phase last-phase))
+                    (>= (- now last) *progress-interval*))
+            (setf last now last-phase phase)
             (write-progress (apply #'progress-text report) stream)))))))
 
 ;;; Interruption

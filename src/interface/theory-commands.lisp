@@ -16,7 +16,7 @@ Event Calculus Reasoner, others hold define-theory."
   "Return the value of --horizon in OPTIONS, which THEORY may need."
   (let ((last (getf options :horizon)))
     (unless (or last (ec:theory-time-range theory))
-      (usage-problem "~@[~a: ~]theory ~a says nothing of timepoints: give the last one by ~
+      (usage-problem "~@[~a: ~]theory ~(~a~) says nothing of timepoints: give the last one by ~
                       --horizon."
                      (ec:theory-file theory) (ec:theory-name theory)))
     (when (and last (minusp last))
@@ -40,7 +40,8 @@ Event Calculus Reasoner, others hold define-theory."
 (define-subcommand "check-theory" (arguments options)
     ("FILE [--horizon N]"
      "Say what looks wrong in a theory: contradictions, axioms and events that do nothing."
-     (("horizon") :type integer :documentation "last timepoint (the theory's own, or 3)"))
+     (("horizon") :type integer
+      :documentation "last timepoint (the theory's own, or 3, or 8 if there are warnings at 3)"))
   (let* ((theory (theory-file-argument arguments "check-theory"))
          (findings (ec:check-theory theory :horizon (getf options :horizon))))
     (format t "~{~a~%~}~d finding~:p in ~a~%" findings (length findings) (ec:counts-text theory))

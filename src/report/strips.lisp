@@ -9,7 +9,8 @@
   (format nil "~,3f~@[ ~a~]" number unit))
 
 (defun strip-node (marks min max)
-  "Return a strip from MIN to MAX with MARKS, a list of (value verdict title)."
+  "Return a strip from MIN to MAX with MARKS, a list of (value verdict title): what failed is above
+the line, all else below it, and a cross is on the first mark if that failed."
   (flet ((place (value)
            (+ 8 (* (- *strip-width* 16) (/ (- value min) (- max min))))))
     `(:svg (:class "strip" :width ,*strip-width* :height 22
@@ -17,12 +18,15 @@
            (:line (:x1 8 :x2 ,(- *strip-width* 8) :y1 11 :y2 11 :class "axis"))
            ,(loop for (value verdict title) in marks
                   for x = (place value)
-                  unless (eq verdict :failed)
-                    collect `(:line (:x1 ,x :x2 ,x :y1 5 :y2 17
-                                     :class ,(if (eq verdict :passed) "tick-passed" "tick-left"))
-                                    (:title () ,title)))
+                  for (y1 y2 class) = (ecase verdict
+                                        (:failed '(2 11 "tick-failed"))
+                                        (:passed '(11 20 "tick-passed"))
+                                        (:left '(11 20 "tick-left")))
+                  collect `(:line (:x1 ,x :x2 ,x :y1 ,y1 :y2 ,y2 :class ,class)
+                                  (:title () ,title)))
            ,(loop for (value verdict title) in marks
                   for x = (place value)
+                  repeat 1
                   when (eq verdict :failed)
                     collect `(:path (:d ,(format nil "M~,1f,6L~,1f,16M~,1f,16L~,1f,6"
                                                  (- x 5) (+ x 5) (- x 5) (+ x 5))
@@ -43,7 +47,10 @@ verdict); the values of the first sample are told as numbers if it failed."
     (let ((failing (and (eq (second (first samples)) :failed) (first (first samples)))))
       `(:table (:class "strips")
          (:thead () (:tr () (:th () "Parameter") (:th (:class "number") "from")
-                         (:th () "samples") (:th (:class "number") "to")
+                         (:th () ,(if failing
+                                      "samples: failed above, passed below"
+                                      "samples"))
+                         (:th (:class "number") "to")
                          ,(and failing '(:th (:class "number") "in the discrepancy"))))
          (:tbody ()
            ,(loop for parameter across parameters

@@ -77,7 +77,8 @@ tr.note-row td { border-bottom: 1px solid var(--line); padding-top: 0 }
 tr.not-run td { color: var(--quiet) }
 tr.not-run .chip { color: var(--quiet); background: #fff }
 pre.command { background: var(--soft); border: 1px solid var(--line); border-radius: 6px;
-              padding: 10px 14px; overflow-x: auto; margin: 0 0 10px }
+              padding: 10px 14px; margin: 0 0 10px; white-space: pre-wrap;
+              overflow-wrap: anywhere }
 pre.text { white-space: pre-wrap; overflow-wrap: anywhere; margin: 0 0 12px; line-height: 1.45 }
 .edit { border: 1px solid var(--line); border-radius: 6px; padding: 10px 14px; margin: 0 0 10px }
 .edit.removes { border-left: 4px solid var(--good) }
@@ -85,6 +86,7 @@ pre.text { white-space: pre-wrap; overflow-wrap: anywhere; margin: 0 0 12px; lin
           margin: 8px 0 14px }
 .legend span { display: inline-flex; align-items: center; gap: 6px }
 svg { display: block; max-width: 100%; height: auto }
+svg.strip { min-width: 190px }
 svg text { font-family: inherit; font-size: 12px; fill: var(--text) }
 svg.map text { paint-order: stroke; stroke: #fff; stroke-width: 3px; stroke-linejoin: round }
 .ground { fill: #fbfcfd }
@@ -118,10 +120,16 @@ path.failed { fill: none; stroke: var(--failed); stroke-width: 2.4; stroke-linec
 .halo { fill: none; stroke: #fff; stroke-width: 5.5; stroke-linecap: round }
 .axis { stroke: #c5cbd6; stroke-width: 1.5 }
 .tick-passed { stroke: var(--passed); stroke-width: 1.5; stroke-opacity: 0.55 }
+.tick-failed { stroke: var(--failed); stroke-width: 1.5; stroke-opacity: 0.7 }
 .tick-left { stroke: var(--quiet); stroke-width: 1.5; stroke-opacity: 0.55 }
 details summary { cursor: pointer; color: var(--quiet); margin: 6px 0 }
 footer { margin-top: 46px; padding-top: 10px; border-top: 1px solid var(--line);
          font-size: 12.5px; color: var(--quiet) }
+/* On narrow pages maps shrink; their words do not. */
+@media (max-width: 860px) { main { padding: 16px 16px 40px } th, td { padding: 5px 5px }
+                            table.strips td { padding: 2px 5px; font-size: 13px }
+                            .timeline th:first-child { width: 40px }
+                            svg.map text:not(.fixture) { font-size: 14.5px } }
 @media print { main { max-width: none; padding: 0 } h2 { break-after: avoid }
                tr, svg, .banner { break-inside: avoid } }
 "

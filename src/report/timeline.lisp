@@ -33,7 +33,10 @@ something is null."
     `((:span (:class "action") ,(designator-type text)) " "
       (:span (:class "designator") ,text) " "
       ,(and (key step "file")
-            `(:span (:class "place") ,(format nil "~a:~d" (key step "file") (key step "line")))))))
+            (let ((place (format nil "~a:~d" (key step "file") (key step "line"))))
+              ;; With its folders the name is longer than all else in the row.
+              `(:span (:class "place" :title ,place)
+                 ,(subseq place (1+ (or (position #\/ place :from-end t) -1)))))))))
 
 ;;; States
 

@@ -91,7 +91,9 @@
                     "(axiom pick-up-holds)"))
       (is (search part text) "~s is not in ~a" part text))
     (is (null (search "of-the-run" text)) "names that tell the run are shown: ~a" text)
-    (is (null (search "in-the-run" text)) "names that tell the run are shown: ~a" text)))
+    (is (null (search "in-the-run" text)) "names that tell the run are shown: ~a" text)
+    (signals-with (discrepancy:invalid-argument "max-runs")
+      (discrepancy:explain-discrepancy discrepancy :max-runs -1))))
 
 (test an-event-that-the-theory-forbids
   "Success is forbidden by a precondition: the robot picks up a box that is not there."

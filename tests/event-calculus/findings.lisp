@@ -71,7 +71,7 @@ and return the findings."
                                                  (terminates (switch) (plugged-in) ?time))))))))
     (finding-words finding "odd" "(holds-at (lit) ?time)" "0 to 3"))
   (lamp-finds ((:warning :vacuous-axiom :odd))
-    (:axioms (odd (implies (and (happens (switch) ?time) (happens (switch) (- ?time 7)))
+    (:axioms (odd (implies (and (happens (switch) ?time) (happens (switch) (- ?time 17)))
                            (holds-at (plugged-in) ?time)))))
   ;; What only compares elements is no condition of a state.
   (lamp-finds ()

@@ -109,7 +109,7 @@ document.getElementById('seen').textContent = JSON.stringify(seen);
     (let* ((object (json-of (found-result)))
            (found (json-at object "discrepancies" 0))
            (page (report-page (found-result))))
-      (dolist (width '(1200 800))
+      (dolist (width '(1200 700))
         (let ((seen (seen-in-browser page :width width)))
           (check-layout seen)
           (check-figures seen object)
@@ -129,6 +129,44 @@ document.getElementById('seen').textContent = JSON.stringify(seen);
           (is (= 1 (json-at seen "maps")))
           (is (= 2 (json-at seen "crosses")))
           (is-in "box-delivered" (json-at seen "facts")))))))
+
+(test a-browser-shows-a-long-trace-in-the-kitchen
+  "The page of a plan of many steps and items fits into a narrow window."
+  (when *browser*
+    (let* ((plan (discrepancy:ensure-plan 'discrepancy-finder-user::looking-into-drawers
+                                          (root-file "plans/looking-into-drawers.lisp")))
+           (result (df:find-discrepancies
+                    (plan:plan-name plan)
+                    :domain (discrepancy:ensure-domain
+                             :kitchen-drawers (root-file "models/kitchen/drawers.lisp"))
+                    :constraint :successful-grasping :explain t))
+           (found (json-at (json-of result) "discrepancies" 0))
+           (page (report-page result)))
+      (dolist (width '(1200 700))
+        (let ((seen (seen-in-browser page :width width)))
+          (check-layout seen)
+          (check-rows (strings-of seen "rows") (json-at found "theory")
+                      (json-at found "simulation"))
+          (is (= 1 (json-at seen "maps"))))))))
+
+(test the-browser-tests-see-what-is-wrong
+  "The checks above could not fail if the page's defects were not seen."
+  (when *browser*
+    (let ((page (report-page (found-result))))
+      (flet ((seen-with (old new)
+               (is (search old page))
+               (seen-in-browser (replace-all page old new) :width 700)))
+        (is (plusp (json-at (seen-with "<main>" "<main style=\"width: 1500px\">")
+                            "overflow")))
+        (is (= 0 (json-at (seen-with "class=\"map\"" "class=\"map\" style=\"display: none\"")
+                          "maps")))
+        (is (equalp #("http://127.0.0.1:9/x.png")
+                    (json-at (seen-with "</main>"
+                                        "<img src=\"http://127.0.0.1:9/x.png\"></main>")
+                             "requests")))
+        (is (null (search "manipulation-pose-unreachable"
+                          (json-at (seen-with "manipulation-pose-unreachable" "success")
+                                   "banner"))))))))
 
 (test a-browser-shows-the-replay-command
   (when *browser*

@@ -62,11 +62,19 @@
     (is (= 5 (occurrences-of "class=\"passed\"" page)))
     (is (= (* 2 (length (json-at object "discrepancies" 0 "parameters")))
            (occurrences-of "class=\"tick-passed\"" page)))
+    (is (= (length (json-at object "discrepancies" 0 "parameters"))
+           (occurrences-of "class=\"tick-failed\"" page)))
     ;; One on the map, one in the legend.
     (is (= 2 (occurrences-of "class=\"trail failing\"" page)))
     (is (= 1 (occurrences-of "id=\"step-2\"" page)))
     (is (= 2 (occurrences-of "class=\"not-run\"" page)))
     (is-true (shows-p "The discrepancy was not stored." page))))
+
+(test steps-name-files-without-folders
+  (let ((node (report::node-text (report::step-name-node
+                                  (json:object "designator" "(a motion (type going))"
+                                               "file" "/a/b/c.lisp" "line" 3)))))
+    (is (search "title=\"/a/b/c.lisp:3\">c.lisp:3<" node))))
 
 (test what-is-no-html-is-escaped
   (is (string= "&lt;b&gt; &amp; &quot;" (report::node-text "<b> & \"")))

@@ -152,7 +152,9 @@ RUN has followed it so far, else that of success."
                                           max-seconds)
   "Return the EXPLANATION of DISCREPANCY.  RUNS are the valid runs of its trace so far, or pairs
 \(run . judgement).  At most MAX-RUNS further runs, begun within MAX-SECONDS (NIL: no limit), find
-out which coordinates decide; with 0 none are made.  EXPLANATION-TEXT tells it in words."
+out which coordinates decide; with 0 none are made.  EXPLANATION-TEXT tells it in words.  Signals
+INVALID-ARGUMENT."
+  (check-argument 'max-runs max-runs (typep max-runs '(integer 0)) "an integer from 0 on")
   (z3:with-context (context)
     (let* ((known (judged-runs discrepancy runs context))
            (known (if (find (discrepancy-run discrepancy) known :key #'car)

@@ -153,7 +153,8 @@ end is REFINEMENT-DOMAIN.  Signals what FIND-DISCREPANCIES signals."
                  (return (refinement :refined results
                                      "no discrepancy is left along ~{~(~a~)~^, ~}" plans)))
                 ((>= (length (refining-steps refining)) edits)
-                 (return (refinement :undecided results "~d edit~:p were not enough" edits)))
+                 (return (refinement :undecided results
+                                     "~d edit~:p ~:*~[were~;was~:;were~] not enough" edits)))
                 ((not (apply-best-edit refining discrepancy))
                  (return (refinement :undecided results
                                      "no edit removes the last discrepancy without contradicting ~

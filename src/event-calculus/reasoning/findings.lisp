@@ -337,19 +337,10 @@ conditions."
                             (setf last (max last (if event (1+ time) time))))
                           theory (axiom-formula axiom)))))
 
-(defun check-theory (theory &key horizon)
-  "Return the list of the FINDINGs about THEORY, a theory or its name: is it inconsistent, which
-axioms have no instance or never apply, which events can never happen or change nothing, which
-fluents never change, are never read, or are open at first, which sorts have no elements and which
-functions no values.
-HORIZON is as for MAKE-REASONER; where the theory has none the last timepoint is 3, or the last that
-an axiom gives by number.  Signals THEORY-NOT-FOUND, NO-HORIZON."
-  (let* ((theory (as-theory theory))
-         (horizon (check-horizon theory (or horizon (if (theory-time-range theory)
-                                                           nil
-                                                           (default-horizon theory)))))
-         (*horizon* horizon)
-         (*exact-names* (eq (theory-syntax theory) :e)))
+(defun findings-within (theory horizon)
+  "Return the list of the FINDINGs about THEORY within HORIZON, (first . last)."
+  (let ((*horizon* horizon)
+        (*exact-names* (eq (theory-syntax theory) :e)))
     (if (not (consistent-p theory :horizon horizon))
         (inconsistency theory horizon)
         (let ((ground (general-ground-theory theory)))
@@ -370,3 +361,22 @@ an axiom gives by number.  Signals THEORY-NOT-FOUND, NO-HORIZON."
            (functions-without-values ground theory)
            (unread-fluents theory)
            (unconstrained-fluents theory horizon))))))
+
+(defun check-theory (theory &key horizon)
+  "Return the list of the FINDINGs about THEORY, a theory or its name: is it inconsistent, which
+axioms have no instance or never apply, which events can never happen or change nothing, which
+fluents never change, are never read, or are open at first, which sorts have no elements and which
+functions no values.
+HORIZON is as for MAKE-REASONER; where the theory has none the last timepoint is 3, or the last that
+an axiom gives by number, and five more where there are warnings of which less is left then.
+Signals THEORY-NOT-FOUND, NO-HORIZON."
+  (let ((theory (as-theory theory)))
+    (if (or horizon (theory-time-range theory))
+        (findings-within theory (check-horizon theory horizon))
+        (let* ((horizon (check-horizon theory (default-horizon theory)))
+               (findings (findings-within theory horizon))
+               ;; An event may need more preparation than there was time for.
+               (later (if (find :warning findings :key #'finding-severity)
+                          (findings-within theory (cons (car horizon) (+ 5 (cdr horizon))))
+                          findings)))
+          (if (< (length later) (length findings)) later findings)))))
