@@ -196,9 +196,13 @@ at POSITIONS but the bodies IGNORED, and with CARRIED what it holds neither."
        *planning-clearance*)))
 
 (defun way-free-p (projection arm start goal)
-  "Return true if ARM can go straight in joint space from START to GOAL."
-  (let ((robot (projection-robot projection)))
-    (null (bullet:path-contact (robot-mechanism robot) (base-pose robot) start goal
-                                 (append (arm-bodies projection (cddr (arm-links arm)))
-                                         (carried-bodies projection arm))
-                                 (arm-obstacles projection arm)))))
+  "Return true if ARM can go straight in joint space from START to GOAL.  It keeps away from
+everything, as the search along the way may overlook a slight contact on which the motion would
+stop; but it may come from where it is nearer."
+  (let* ((robot (projection-robot projection))
+         (watched (append (arm-bodies projection (cddr (arm-links arm)))
+                          (carried-bodies projection arm)))
+         (obstacles (arm-obstacles projection arm)))
+    (loop for distance in (list *planning-clearance* 0d0)
+          never (bullet:path-contact (robot-mechanism robot) (base-pose robot) start goal
+                                     watched obstacles :contact-distance distance))))
