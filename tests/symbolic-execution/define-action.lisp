@@ -73,7 +73,7 @@
   (make-kitchen)
   (with-file (file text)
     (plan:load-plan file)
-    (apply #'symbolic:explore-plan 'discrepancy-finder-user::toy-kitchen-plan :domain :toy-kitchen
+    (apply #'symbolic:explore-plan 'discrepancy-finder-user::kitchen-plan :domain :toy-kitchen
            options)))
 
 (defun step-lists (exploration)
