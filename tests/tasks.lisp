@@ -135,8 +135,8 @@
   (is (= 0 (busy-threads))))
 
 (test no-end-to-a-recursion
-  "A stack that is exhausted ends the plan with an error; the next plan runs."
-  (signals storage-condition (plan:top-level (count-deep 1000000)))
+  "A stack that is full ends the plan with an error; the next plan runs."
+  (signals plan:tasks-nested-too-deeply (plan:top-level (count-deep 1000000)))
   (is (= 10 (plan:top-level (count-deep 10)))))
 
 (test top-levels-leave-nothing-behind

@@ -93,6 +93,12 @@ of the plan did what can be done only as long as the plan runs."))
   (:documentation "Signaled by a top-level with too many parallel tasks at the same time; recursion
 without end in a parallel branch leads to it."))
 
+(define-condition tasks-nested-too-deeply (storage-condition)
+  ()
+  (:report "Tasks are nested so deeply that they fill the control stack: does a plan call itself?")
+  (:documentation "Signaled where a task begins inside of others on the same stack, and little of
+that is left."))
+
 (define-condition fluent-not-settable (plan-error)
   ((fluent :initarg :fluent :reader fluent-not-settable-fluent
            :documentation "What was to be set."))

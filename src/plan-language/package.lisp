@@ -131,7 +131,7 @@ perform.")
    #:malformed-plan-form-plan
    #:misplaced-retry #:misplaced-retry-form
    #:deadlock #:deadlock-waiting #:too-many-tasks #:too-many-tasks-task
-   #:too-many-tasks-limit #:top-level-interrupted #:wait-for-nil
+   #:too-many-tasks-limit #:tasks-nested-too-deeply #:top-level-interrupted #:wait-for-nil
    #:fluent-not-settable #:fluent-not-settable-fluent
    #:task-left-by-jump #:task-left-by-jump-task #:task-not-found #:task-not-found-path
    #:process-module-not-found #:process-module-not-found-name

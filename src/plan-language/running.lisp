@@ -303,6 +303,17 @@ is signaled again on the thread of the top-level, which the user sees."
     (:failed (fail (task-result child)))
     (:evaporated nil)))
 
+(defconstant +stack-reserve+ 250000
+  "So many bytes of the control stack are left for what a task does by itself.")
+
+(defun check-stack ()
+  "Signal TASKS-NESTED-TOO-DEEPLY if little is left of the control stack.  SBCL notices by itself
+where none is left, but ends the process if that is in the middle of an allocation."
+  (when (< (sb-sys:sap- (sb-kernel:current-sp)
+                        (sb-di::descriptor-sap sb-vm:*control-stack-start*))
+           +stack-reserve+)
+    (error 'tasks-nested-too-deeply)))
+
 (defun run-child (child function)
   "Run FUNCTION as the body of CHILD, a new task, and return its values or fail as it does."
   (let* ((parent (task-parent child))
@@ -310,6 +321,7 @@ is signaled again on the thread of the top-level, which the user sees."
     (check-escape parent)
     (cond ((task-dead-p child))         ; a tag that has evaporated before it was reached
           ((or (alone-p scheduler) (strand-uninterrupted (task-strand parent)))
+           (check-stack)
            (setf (task-strand child) (task-strand parent))
            (check-events (task-strand parent))
            (run-task child function)

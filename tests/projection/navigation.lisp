@@ -135,6 +135,11 @@
       (is (null path))
       (is (eq :path reason)))))
 
+(test a-place-that-is-taken-is-refused-by-the-name-of-what-is-there
+  (projection:with-projection (projection (kitchen-scene) :joints '(("drawer_2_joint" . 0.4d0)))
+    (signals-with (plan:navigation-pose-unreachable "would touch counter/drawer_2")
+      (plan:perform (going-to -1.37 0.14 pi)))))
+
 (test places-that-are-taken-are-refused
   (projection:with-projection (projection (kitchen-scene))
     (projection:settle projection)

@@ -46,7 +46,8 @@ before."
       (plan:fail 'plan:navigation-pose-unreachable
                  :location goal
                  :description (ecase problem
-                                (:goal "the robot cannot stand at its goal")
+                                (:goal (format nil "at its goal the robot would touch ~{~a~^ and ~}"
+                                               (touched-at projection (pose-place goal))))
                                 (:path "no way leads to the goal"))))
     (multiple-value-bind (reason bodies)
         (run-base projection (append (butlast path) (list (stopping-place projection goal)))

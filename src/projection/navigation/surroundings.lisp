@@ -48,16 +48,23 @@
   (let ((base (base-pose robot)))
     (list (pose-x base) (pose-y base) (pose-yaw base))))
 
-(defun touches-at-p (projection place)
-  "Return true if PROJECTION's robot, as it is now, would touch something at PLACE."
+(defun touches-at-p (projection place &optional (bodies (solid-bodies projection)))
+  "Return true if PROJECTION's robot, as it is now, would touch one of BODIES at PLACE."
   (let ((robot (projection-robot projection)))
     (destructuring-bind (x y yaw) place
       (<= (bullet:mechanism-clearance (robot-mechanism robot)
                                       (make-pose x y (standing-height robot) :yaw yaw)
                                       (joint-positions robot)
                                       (watched-bodies projection :all)
-                                      (solid-bodies projection) 1d-3)
+                                      bodies 1d-3)
           0))))
+
+(defun touched-at (projection place)
+  "Return the list of the names of the bodies that PROJECTION's robot, as it is now, would touch at
+PLACE."
+  (loop for body in (solid-bodies projection)
+        when (touches-at-p projection place (list body))
+          collect (bullet:body-name body)))
 
 (defun without-pairs-at (footing place)
   "Return FOOTING without the pairs of pieces that overlap at PLACE."
