@@ -217,10 +217,17 @@ The environment variable CXX names another compiler than g++."))
                (:file "executive") (:file "prolog-names") (:file "load-plan")
                (:file "indentation")))
 
+(asdf:defsystem "discrepancy-finder/html"
+  :description "HTML and SVG from lists."
+  :pathname "src/html/"
+  :serial t
+  :components ((:file "package") (:file "html")))
+
 (asdf:defsystem "discrepancy-finder/symbolic-execution"
   :description "Plans on all inputs at once, along the paths that a theory allows."
   :depends-on ("discrepancy-finder/event-calculus" "discrepancy-finder/plan-language"
-               "discrepancy-finder/json" "alexandria" (:require "sb-cltl2"))
+               "discrepancy-finder/json" "discrepancy-finder/html" "alexandria"
+               (:require "sb-cltl2"))
   :pathname "src/symbolic-execution/"
   :serial t
   :components ((:file "package") (:file "conditions") (:file "current-path")
@@ -366,10 +373,11 @@ The environment variable CXX names another compiler than g++."))
 
 (asdf:defsystem "discrepancy-finder/report"
   :description "Results of searches as pages for a browser."
-  :depends-on ("discrepancy-finder/discrepancy" "discrepancy-finder/json")
+  :depends-on ("discrepancy-finder/discrepancy" "discrepancy-finder/json"
+               "discrepancy-finder/html")
   :pathname "src/report/"
   :serial t
-  :components ((:file "package") (:file "html") (:file "style") (:file "shots") (:file "sheet")
+  :components ((:file "package") (:file "style") (:file "shots") (:file "sheet")
                (:file "regions") (:file "labels") (:file "map") (:file "strips")
                (:file "timeline") (:file "why") (:file "page")))
 

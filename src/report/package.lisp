@@ -1,6 +1,6 @@
 (defpackage #:discrepancy-finder.report
   (:documentation "Results of searches as pages for a browser.")
-  (:use #:cl #:discrepancy-finder.geometry)
+  (:use #:cl #:discrepancy-finder.geometry #:discrepancy-finder.html)
   (:local-nicknames (#:ec #:discrepancy-finder.event-calculus)
                     (#:symbolic #:discrepancy-finder.symbolic-execution)
                     (#:projection #:discrepancy-finder.projection)

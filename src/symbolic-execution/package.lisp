@@ -7,6 +7,7 @@
                     (#:source #:discrepancy-finder.source)
                     (#:desig #:discrepancy-finder.designators)
                     (#:json #:discrepancy-finder.json)
+                    (#:html #:discrepancy-finder.html)
                     (#:foreign #:discrepancy-finder.foreign))
   (:export
    ;; action theories: what designators mean in a theory

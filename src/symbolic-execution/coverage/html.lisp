@@ -23,15 +23,7 @@ pre { border: 1px solid #ccc; padding: 0.5em; overflow-x: auto; line-height: 1.3
 (defun escaped (text)
   "Return TEXT with what has a meaning in HTML written as character references."
   (with-output-to-string (stream)
-    (loop for character across text
-          do (case character
-               (#\& (write-string "&amp;" stream))
-               (#\< (write-string "&lt;" stream))
-               (#\> (write-string "&gt;" stream))
-               (#\" (write-string "&quot;" stream))
-               (t (if (or (graphic-char-p character) (find character '(#\Tab #\Newline)))
-                      (write-char character stream)
-                      (write-char #\Replacement_character stream)))))))
+    (html:write-escaped text stream)))
 
 ;;; Where forms are
 

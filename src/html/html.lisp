@@ -5,7 +5,7 @@
 ;;;; throughout, as some of SVG's, are strings; an attribute with the value NIL is left out.
 ;;;; WRITE-NODE is the entry point.
 
-(in-package #:discrepancy-finder.report)
+(in-package #:discrepancy-finder.html)
 
 (defun write-escaped (text stream)
   "Write TEXT to STREAM with what has a meaning in HTML as character references."
