@@ -198,11 +198,18 @@ at POSITIONS but the bodies IGNORED, and with CARRIED what it holds neither."
 (defun way-free-p (projection arm start goal)
   "Return true if ARM can go straight in joint space from START to GOAL.  It keeps away from
 everything, as the search along the way may overlook a slight contact on which the motion would
-stop; but it may come from where it is nearer."
+stop; but it may come from where it is nearer, and then must not touch what it leaves."
   (let* ((robot (projection-robot projection))
+         (mechanism (robot-mechanism robot))
+         (base (base-pose robot))
          (watched (append (arm-bodies projection (cddr (arm-links arm)))
                           (carried-bodies projection arm)))
          (obstacles (arm-obstacles projection arm)))
-    (loop for distance in (list *planning-clearance* 0d0)
-          never (bullet:path-contact (robot-mechanism robot) (base-pose robot) start goal
-                                     watched obstacles :contact-distance distance))))
+    (flet ((free-at-p (distance)
+             (not (bullet:path-contact mechanism base start goal watched obstacles
+                                       :contact-distance distance))))
+      (and (free-at-p *planning-clearance*)
+           (or (> (bullet:mechanism-clearance mechanism base start watched obstacles
+                                              (* 2 *planning-clearance*))
+                  *planning-clearance*)
+               (free-at-p 0d0))))))
