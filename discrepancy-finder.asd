@@ -328,7 +328,7 @@ The environment variable CXX names another compiler than g++."))
   :components ((:file "package") (:file "conditions") (:file "normal") (:file "beta")
                (:file "student") (:file "least-squares") (:file "regression") (:file "rules")
                (:file "evidence") (:file "paper-rule") (:file "zero-failure")
-               (:file "prediction") (:file "worst-corners")))
+               (:file "prediction") (:file "mixed-evidence") (:file "worst-corners")))
 
 (asdf:defsystem "discrepancy-finder/discrepancy"
   :description "The search for discrepancies between theory and projection."
@@ -342,7 +342,8 @@ The environment variable CXX names another compiler than g++."))
                              (:file "parsing") (:file "parsing-observers") (:file "extending")
                              (:file "define-abstraction") (:file "catalog")))
                (:module "sampling" :serial t
-                :components ((:file "random") (:file "samplers") (:file "sampling")))
+                :components ((:file "random") (:file "samplers") (:file "sampling")
+                             (:file "starts")))
                (:module "execution" :serial t
                 :components ((:file "meter") (:file "actions") (:file "execution")
                              (:file "scene-runs")))
@@ -470,7 +471,7 @@ The environment variable CXX names another compiler than g++."))
                              (:file "regions") (:file "search") (:file "judgement")
                              (:file "explain") (:file "review")
                              (:file "replay") (:file "search-phases") (:file "journal")
-                             (:file "table-top") (:file "tolerances") (:file "shrink")
+                             (:file "starts") (:file "table-top") (:file "tolerances") (:file "shrink")
                              (:file "side-by-side") (:file "edits") (:file "refinement")
                              (:file "blind-simulation")))
                (:module "kitchen" :pathname "projection/" :serial t

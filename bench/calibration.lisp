@@ -92,7 +92,7 @@ each of the rules NAMES, and the number of blind samples before the first discre
                                                    (final-bounds kind n (cell-margin cell))))
          (parameters (made-up-parameters n))
          (evidence (statistics:make-evidence region))
-         (targeting (and (cell-targets cell) (discrepancy::make-targeting region)))
+         (targeting (and (cell-targets cell) (discrepancy::make-targeting (list region))))
          (box (and (cell-jump-p cell) (jump-box (initial-bounds n) (cell-p cell) state)))
          (open (loop for name in names
                      collect (cons name (statistics:rule-for-trace
@@ -106,7 +106,9 @@ each of the rules NAMES, and the number of blind samples before the first discre
                     (sample (if blind-p
                                 (discrepancy:draw-sample parameters seed number
                                                          (1- (incf drawn)))
-                                (discrepancy::target-sample targeting parameters seed number)))
+                                (discrepancy::target-sample
+                                 (discrepancy::targeting-aim targeting 0) parameters seed number
+                                 (discrepancy::next-target targeting))))
                     (x (discrepancy:sample-values sample))
                     (y (noisy-values kind x state)))
                (when (and box (inside-p x box)) (incf (aref y 0) 3))
@@ -117,7 +119,7 @@ each of the rules NAMES, and the number of blind samples before the first discre
                  (return))
                (statistics:add-sample evidence
                                       (statistics:make-parameter-sample x y :blind-p blind-p))
-               (when targeting (discrepancy::note-values targeting x y))
+               (when targeting (discrepancy::note-values targeting 0 x y))
                (dolist (entry open)
                  (when (eq :confident (statistics:verdict-status
                                        (statistics:evidence-verdict (cdr entry) evidence)))

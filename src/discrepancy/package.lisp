@@ -57,7 +57,7 @@ search, replay.")
    #:result-statement #:trace-result-statement #:trace-result-bound
    #:request-stop #:stop-search
    #:skip-sample #:retry-sample #:abort-trace
-   #:trace-result #:trace-result-status #:trace-result-trace #:trace-result-verdict
+   #:trace-result #:run-trace #:trace-result-status #:trace-result-trace #:trace-result-verdict
    #:trace-result-samples #:trace-result-rejected #:trace-result-reason
    #:trace-result-blind #:trace-result-targeted #:trace-result-drawn #:trace-result-accepted
    #:trace-result-left-trace #:trace-result-void #:trace-result-runs #:trace-result-warnings

@@ -58,17 +58,18 @@ the base was after each performed designator.  VERDICT is :PASSED, :FAILED or :L
   "Return the shot of ENTRY, a (run . judgement), with the sample and the verdict alone."
   (make-shot :sample (discrepancy:run-sample (car entry)) :verdict (entry-verdict entry)))
 
-(defun entries-shots (result trace execution entries)
-  "Return the shots of ENTRIES, of which the first *SHOT-LIMIT* are run again."
+(defun entries-shots (result trace-of execution entries)
+  "Return the shots of ENTRIES, of which the first *SHOT-LIMIT* are run again; TRACE-OF is a function
+of a run."
   (loop for entry in entries
         for count from 0
         collect (if (< count *shot-limit*)
-                    (entry-shot result trace execution entry)
+                    (entry-shot result (funcall trace-of (car entry)) execution entry)
                     (without-pictures entry))))
 
 (defun trace-shots (result trace-result)
   "Return the shots for the map of TRACE-RESULT, in which no discrepancy was found."
-  (entries-shots result (discrepancy:trace-result-trace trace-result) :trace
+  (entries-shots result (lambda (run) (discrepancy:run-trace trace-result run)) :trace
                  (discrepancy:trace-result-runs trace-result)))
 
 (defun discrepancy-shots (result discrepancy)
@@ -85,6 +86,10 @@ the base was after each performed designator.  VERDICT is :PASSED, :FAILED or :L
                             (if trace-result
                                 (discrepancy:trace-result-runs trace-result)
                                 (discrepancy:discrepancy-runs discrepancy)))))
-    (entries-shots result (discrepancy:discrepancy-trace discrepancy)
+    (entries-shots result
+                   (lambda (other)
+                     (if (and trace-result (not (eq other run)))
+                         (discrepancy:run-trace trace-result other)
+                         (discrepancy:discrepancy-trace discrepancy)))
                    (discrepancy:discrepancy-execution discrepancy)
                    (cons (cons run (discrepancy:discrepancy-judgement discrepancy)) others))))

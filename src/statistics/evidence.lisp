@@ -5,15 +5,20 @@
 
 (in-package #:discrepancy-finder.statistics)
 
-(defstruct (evidence (:constructor %make-evidence (region regression lowest highest))
-                     (:copier nil))
-  "What samples from REGION have shown: BLIND counts the blind ones, TARGETED the others."
+(defstruct (evidence (:constructor nil) (:copier nil))
+  "What samples have shown: BLIND counts the blind ones, TARGETED the others."
+  (blind 0 :type (integer 0))
+  (targeted 0 :type (integer 0)))
+
+(defstruct (region-evidence (:include evidence)
+                            (:constructor %make-evidence (region regression lowest highest))
+                            (:conc-name evidence-)
+                            (:copier nil))
+  "What samples from REGION have shown."
   (region nil :type parameter-region :read-only t)
   (regression nil :type regression :read-only t)
   (lowest #() :type simple-vector :read-only t)
-  (highest #() :type simple-vector :read-only t)
-  (blind 0 :type (integer 0))
-  (targeted 0 :type (integer 0)))
+  (highest #() :type simple-vector :read-only t))
 
 (setf (documentation 'evidence-blind 'function)
       "Return the number of the blind samples in EVIDENCE."
@@ -33,8 +38,12 @@
                     (make-array outputs :initial-element nil)
                     (make-array outputs :initial-element nil))))
 
-(defun add-sample (evidence sample)
-  "Add the PARAMETER-SAMPLE SAMPLE, which is no discrepancy, to EVIDENCE; return EVIDENCE."
+(defgeneric add-sample (evidence sample &optional part)
+  (:documentation "Add the PARAMETER-SAMPLE SAMPLE, which is no discrepancy, to EVIDENCE, if that is
+mixed to the part with the number PART, from 0; return EVIDENCE."))
+
+(defmethod add-sample ((evidence region-evidence) sample &optional part)
+  (declare (ignore part))
   (cond ((parameter-sample-blind-p sample)
          (incf (evidence-blind evidence))
          (add-observation (evidence-regression evidence) (parameter-sample-initial sample)

@@ -20,12 +20,13 @@ been enough samples.  Numbers are double floats; results are functions of the ar
    #:parameter-region-final-bounds
    #:verdict #:verdict-status #:verdict-reason #:verdict-count #:verdict-intervals
    #:verdict-coefficients #:verdict-sigma #:verdict-z #:verdict-freedom
+   #:verdict-parts
    #:worst-corners
    ;; confidence rules
    #:confidence-rule #:confidence-rule-confidence #:confidence-verdict
    #:make-confidence-rule #:register-confidence-rule #:rule-for-trace
    #:evidence #:make-evidence #:add-sample #:evidence-verdict #:evidence-blind
-   #:evidence-targeted
+   #:evidence-targeted #:make-mixed-evidence #:leave-out-part
    #:paper-rule #:paper-interval #:paper-sd-rule #:prediction-rule #:zero-failure-rule
    #:rule-delta #:sound-rule #:zero-failure-count #:zero-failure-bound
    ;; conditions

@@ -100,7 +100,7 @@ parameter."
         (not-yet count "~d samples for ~d columns leave no spread" count
                  (fit-columns (first fits))))))
 
-(defmethod evidence-verdict ((rule paper-rule) evidence)
+(defmethod evidence-verdict ((rule paper-rule) (evidence region-evidence))
   (let* ((regression (evidence-regression evidence))
          (region (evidence-region evidence))
          (outputs (regression-outputs regression))

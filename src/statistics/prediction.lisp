@@ -87,7 +87,7 @@ the way from their middle to a corner."
         for index from 0
         count (and (< min max) (not (member index (regression-varying regression))))))
 
-(defmethod evidence-verdict ((rule prediction-rule) evidence)
+(defmethod evidence-verdict ((rule prediction-rule) (evidence region-evidence))
   (let* ((regression (evidence-regression evidence))
          (region (evidence-region evidence))
          (outputs (regression-outputs regression))
@@ -158,4 +158,5 @@ alpha."))
                               :coefficients (verdict-coefficients predicted)
                               :sigma (verdict-sigma predicted)
                               :z (verdict-z predicted)
-                              :freedom (verdict-freedom predicted))))))))
+                              :freedom (verdict-freedom predicted)
+                              :parts (verdict-parts predicted))))))))

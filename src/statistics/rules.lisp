@@ -44,7 +44,7 @@ too.  BLIND-P is false if earlier samples had a say in where it was drawn."
 
 (defstruct (verdict (:constructor make-verdict
                         (status reason
-                         &key count intervals coefficients sigma z freedom))
+                         &key count intervals coefficients sigma z freedom parts))
                     (:copier nil))
   "What a confidence rule says about some samples."
   (status :continue :type (member :confident :continue) :read-only t)
@@ -54,7 +54,8 @@ too.  BLIND-P is false if earlier samples had a say in where it was drawn."
   (coefficients '() :type list :read-only t)
   (sigma '() :type list :read-only t)
   (z nil :type (or null double-float) :read-only t)
-  (freedom nil :type (or null integer) :read-only t))
+  (freedom nil :type (or null integer) :read-only t)
+  (parts '() :type list :read-only t))
 
 (setf (documentation 'make-parameter-sample 'function)
       "Return the parameter sample with the vectors INITIAL and FINAL of double floats (SI units).
@@ -88,7 +89,10 @@ NIL if the samples do not suffice to predict."
       "Return the quantile that was used, or NIL."
       (documentation 'verdict-freedom 'function)
       "Return the residual degrees of freedom, samples less columns, of a verdict that rests on a
-regression, else NIL.")
+regression, else NIL."
+      (documentation 'verdict-parts 'function)
+      "Return an association list from the numbers of the parts of mixed evidence to the verdicts on
+them, where a verdict rests on predictions from several parts; else NIL.")
 
 (defmethod print-object ((verdict verdict) stream)
   (print-unreadable-object (verdict stream :type t)

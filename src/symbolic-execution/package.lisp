@@ -31,7 +31,8 @@
    #:trace-plan #:trace-arguments #:trace-text #:step-text #:states-along #:outcome-transition
    #:make-trace-step #:make-execution-trace
    #:trace-step #:step-designator #:step-event #:step-outcome #:step-position
-   #:trace= #:trace-decisions #:trace-ending #:trace-output #:trace-decision #:taken-text
+   #:trace= #:trace-decisions #:trace-ending #:trace-output #:trace-alternatives #:trace-more-p
+   #:trace-decision #:taken-text
    #:taken-choice #:taken-time #:trace-to-json #:trace-from-json
    #:argument-to-json #:argument-from-json
    ;; verification

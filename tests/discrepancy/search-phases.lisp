@@ -203,7 +203,7 @@
   "Work is counted in bytes of memory that are asked for."
   (let* ((region (statistics:make-parameter-region #((0d0 . 1d0) (0d0 . 1d0)) #((0d0 . 2d0))))
          (evidence (statistics:make-evidence region))
-         (targeting (discrepancy::make-targeting region))
+         (targeting (discrepancy::make-targeting (list region)))
          (rule (statistics:make-confidence-rule :sound :delta 1d-6))
          (state (sb-ext:seed-random-state 1))
          (count 0))
@@ -215,7 +215,7 @@
                                                      (random 1d-3 state))))
                      do (incf count)
                         (discrepancy::next-origin targeting)
-                        (discrepancy::note-values targeting x y)
+                        (discrepancy::note-values targeting 0 x y)
                         (statistics:add-sample evidence
                                                (statistics:make-parameter-sample x y))
                         (statistics:evidence-verdict rule evidence))

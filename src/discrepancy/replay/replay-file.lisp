@@ -176,13 +176,18 @@ theory must allow them."
                     (replay-problem "~s: ~a" "actions" (unreadable-action-reason condition))))))
 
 (defun read-constraint (text domain)
+  "Return the state constraint in TEXT, as CONSTRAINT-TEXT makes it: its name, or a formula."
   (let ((constraint (find text (ec:theory-state-constraints (symbolic:action-theory-theory domain))
                           :key (lambda (constraint)
                                  (ec:name-text (ec:state-constraint-name constraint)))
                           :test #'string=)))
-    (if constraint
-        (ec:state-constraint-name constraint)
-        (replay-problem "the theory has no state constraint ~a" text))))
+    (cond (constraint (ec:state-constraint-name constraint))
+          ((string= text "any-action") :any-action)
+          ((alexandria:starts-with #\( text)
+           (handler-case (formula-from-text text)
+             (error ()
+               (replay-problem "~s: ~a cannot be read" "constraint" text))))
+          (t (replay-problem "the theory has no state constraint ~a" text)))))
 
 (defun read-recorded-run (object)
   "Return the state hash and the verdict that were recorded, as a list."

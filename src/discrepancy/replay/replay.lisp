@@ -86,7 +86,7 @@
                            "file" (json-or-null (domain-file domain)))
      "files" (loop for file in (source-files plan domain)
                    collect (cons file (json-or-null (file-hash file))))
-     "constraint" (ec:name-text (discrepancy-constraint discrepancy))
+     "constraint" (constraint-text (discrepancy-constraint discrepancy))
      "parameters" (loop for (name value) on (discrepancy-parameters discrepancy) by #'cddr
                         collect (cons (ec:name-text name) (decimal-double value)))
      "execution" (string-downcase (discrepancy-execution discrepancy))

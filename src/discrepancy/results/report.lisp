@@ -103,6 +103,21 @@ and simulation part, both final states, and how COMMAND replays it."
          (format nil "~a % of the samples drawn were valid"
                  (percent-text (/ (floor (* 1000 rate)) 1000d0))))))
 
+(defun starts-text (starts)
+  "Return a text of STARTS, if there are several: in which fluents they differ, and how many samples
+of each were valid; else NIL."
+  (let ((states (loop for start in starts
+                      collect (ec:state-fluents (symbolic:trace-initial-state
+                                                 (start-trace start))))))
+    (flet ((everywhere-p (atom)
+             (every (lambda (state) (member atom state :test #'equal)) states)))
+      (and (rest starts)
+           (format nil "~{~a (~d)~^ or ~}"
+                   (loop for start in starts
+                         for state in states
+                         collect (state-text (remove-if #'everywhere-p state))
+                         collect (start-accepted start)))))))
+
 (defun trace-result-text (result number confidence)
   "Return a text of some lines that tells RESULT, of trace NUMBER of a search with CONFIDENCE."
   (with-output-to-string (stream)
@@ -113,6 +128,8 @@ and simulation part, both final states, and how COMMAND replays it."
             (trace-result-samples result)
             (let ((rejected (trace-result-rejected result))) (and (plusp rejected) rejected))
             (let ((left (trace-result-left-trace result))) (and (plusp left) left)))
+    (format stream "~@[    valid samples by what is open initially: ~a~%~]"
+            (starts-text (trace-result-starts result)))
     (unless (eq (trace-result-status result) :discrepancy)
       (format stream "    sound: ~a~%" (trace-result-statement result confidence)))
     (format stream "~{    warning: ~a~%~}" (trace-result-warnings result))))
@@ -185,7 +202,7 @@ and simulation part, both final states, and how COMMAND replays it."
               (parameters-text (result-parameters result)))
       (format stream "~@[  tolerances ~a~%~]" (drawn-text result))
       (format stream "  state constraint ~a, rule ~(~a~), confidence ~a, seed ~d~%"
-              (ec:name-text (result-constraint result)) (result-rule-name result)
+              (constraint-text (result-constraint result)) (result-rule-name result)
               (number-text (result-confidence result)) (result-seed result))
       (format stream "  ~d iteration~:p, ~d simulation~:p~@[, and ~a~]~@[; ~a~]~%"
               (result-iterations result) (result-simulations result)

@@ -141,6 +141,15 @@ needs."
                   (shrinking-json (discrepancy-shrunk discrepancy))
                   :null))))
 
+(defun start-json (start)
+  "Return an initial state that samples were drawn from, and how many of them were valid."
+  (json:object
+   "initial" (atoms-json (ec:state-fluents (symbolic:trace-initial-state (start-trace start))))
+   "parameters" (map 'vector #'parameter-json
+                     (remove-if #'fixed-p (start-parameters start)))
+   "accepted" (start-accepted start)
+   "rejected" (start-rejected start)))
+
 (defun trace-result-json (result domain confidence)
   "Return what sampling a trace of DOMAIN came to, the TRACE-RESULT RESULT; CONFIDENCE is the whole
 search's."
@@ -160,6 +169,7 @@ search's."
      "warnings" (texts-json (trace-result-warnings result))
      "left_trace" (trace-result-left-trace result)
      "parameters" (map 'vector #'parameter-json (drawn-parameters domain trace))
+     "starts" (map 'vector #'start-json (trace-result-starts result))
      "theory" (theory-side-json trace)
      "simulation" (let ((entry (find :consistent (trace-result-runs result)
                                      :key (lambda (entry) (judgement-verdict (cdr entry))))))
@@ -201,7 +211,7 @@ JSON:ENCODE makes a text of it."
      "statement" (json-or-null (result-statement result))
      "plan" (result-plan-json result)
      "domain" (result-domain-json result)
-     "constraint" (ec:name-text (result-constraint result))
+     "constraint" (constraint-text (result-constraint result))
      "rule" (string-downcase (result-rule-name result))
      "confidence" (result-confidence result)
      "seed" (result-seed result)

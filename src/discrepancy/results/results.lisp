@@ -4,6 +4,26 @@
 
 (in-package #:discrepancy-finder.discrepancy)
 
+;;; Formulas as text
+
+(defun formula-as-text (formula)
+  "Return a text of FORMULA from which FORMULA-FROM-TEXT makes an equal one."
+  (with-standard-io-syntax
+    (let ((*package* (find-package '#:discrepancy-finder-user)) (*print-case* :downcase))
+      (prin1-to-string formula))))
+
+(defun formula-from-text (text)
+  "Return the formula in TEXT; reading it evaluates nothing."
+  (with-standard-io-syntax
+    (let ((*package* (find-package '#:discrepancy-finder-user)) (*read-eval* nil))
+      (values (read-from-string text)))))
+
+(defun constraint-text (constraint)
+  "Return the text of CONSTRAINT, the name of a state constraint or a formula."
+  (if (consp constraint)
+      (formula-as-text constraint)
+      (ec:name-text constraint)))
+
 (defstruct (discrepancy (:copier nil))
   "A sample from which the simulation does what the theory does not allow.  ORIGIN is :BLIND,
 :TARGETED or :REUSED; OCCURRENCES counts the finds of the same kind, this one included; RUNS is a
@@ -54,7 +74,7 @@ not have."
       (documentation 'discrepancy-confirmed-p 'function)
       "Return true if a second run had the same bits."
       (documentation 'discrepancy-constraint 'function)
-      "Return the name of the state constraint."
+      "Return the name of the state constraint, or the formula that it was given as."
       (documentation 'discrepancy-domain 'function)
       "Return the domain."
       (documentation 'discrepancy-execution 'function)
@@ -158,8 +178,10 @@ the outcome, the class of the failure (:SUCCESS for none)."
 (defstruct (trace-result (:copier nil))
   "What sampling a trace came to: STATUS is :CERTIFIED, :DISCREPANCY, :UNDECIDED or :SKIPPED.  BLIND
 and TARGETED count the samples that the theory allows, DRAWN the blind samples that were drawn, and
-REJECTED all samples that were not valid; VOID says why there can be no certificate, or is NIL."
+REJECTED all samples that were not valid; VOID says why there can be no certificate, or is NIL.
+STARTS are the initial states that were drawn from."
   (trace nil :read-only t)
+  (starts '() :type list :read-only t)
   (status :undecided :type (member :certified :discrepancy :undecided :skipped) :read-only t)
   (reason "" :type string :read-only t)
   (verdict nil :read-only t)
@@ -184,8 +206,15 @@ REJECTED all samples that were not valid; VOID says why there can be no certific
   (and (plusp (trace-result-drawn result))
        (/ (trace-result-accepted result) (float (trace-result-drawn result) 1d0))))
 
+(defun run-trace (result run)
+  "Return the trace that RUN, of the trace of RESULT, is a run of: that trace, or the alternative to
+it that begins as RUN does."
+  (let ((start (find (sample-parameters (run-sample run)) (trace-result-starts result)
+                     :key #'start-parameters)))
+    (if start (start-trace start) (trace-result-trace result))))
+
 (setf (documentation 'trace-result-trace 'function)
-      "Return the execution trace."
+      "Return the execution trace; its alternatives are those that were sampled, too."
       (documentation 'trace-result-status 'function)
       "Return :CERTIFIED, :DISCREPANCY, :UNDECIDED or :SKIPPED."
       (documentation 'trace-result-reason 'function)

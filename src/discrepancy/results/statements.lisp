@@ -28,11 +28,15 @@ TRACE-RESULT-CONFIDENCE, or NIL if the samples tell nothing of it."
 (defun counts-text (blind all)
   (format nil "~d blind simulation~:p of ~d" blind all))
 
-(defun part-text (left-trace)
-  "Return what part of a trace's initial region its samples tell of."
-  (if (plusp left-trace)
-      "the part of the initial region from which the trace is followed"
-      "the initial region"))
+(defun part-text (result)
+  "Return what part of the initial region of the trace of RESULT its samples tell of."
+  (let ((starts (count-if #'plusp (trace-result-starts result) :key #'start-accepted)))
+    (format nil (if (plusp (trace-result-left-trace result))
+                    "the part of ~a from which the trace is followed"
+                    "~a")
+            (if (< 1 starts)
+                (format nil "the initial region (of ~d discrete states)" starts)
+                "the initial region"))))
 
 (defun trace-result-statement (result confidence)
   "Return the sentence, without a full stop, on what the number of blind samples of the trace of
@@ -42,7 +46,7 @@ nothing."
     (cond (bound
            (format nil "at ~a % confidence at most ~a % of ~a is discrepant (~a, which agree)"
                    (percent-text confidence) (bound-text bound)
-                   (part-text (trace-result-left-trace result))
+                   (part-text result)
                    (counts-text (trace-result-blind result) (trace-result-samples result))))
           ((eq (trace-result-status result) :discrepancy) "there is a discrepancy")
           ((trace-result-void result)

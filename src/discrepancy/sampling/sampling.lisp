@@ -97,10 +97,14 @@ NIL if it was not drawn."
 (defun placements (domain)
   (remove-if-not #'placement-p (domain-observers domain)))
 
+(defun placement-regions-in (placement state)
+  "Return the list of the regions that PLACEMENT's fluent names in STATE, a state of the theory."
+  (remove-if-not (lambda (region) (ec:fluent-value state (placement-atom placement region)))
+                 (placement-regions placement)))
+
 (defun placement-region (placement state)
-  "Return the region that PLACEMENT's fluent names in STATE, a state of the theory, or NIL."
-  (find-if (lambda (region) (ec:fluent-value state (placement-atom placement region)))
-           (placement-regions placement)))
+  "Return the first region that PLACEMENT's fluent names in STATE, or NIL."
+  (first (placement-regions-in placement state)))
 
 (defun tolerance-parameters (scene)
   "Return the list of the PARAMETERs that the tolerances of SCENE are; those that the user has set
@@ -140,9 +144,9 @@ are none."
   "Return the PARAMETERs of BODY, of which one placement must hold in the initial state of TRACE."
   (let* ((placements (remove body (placements domain) :key #'placement-body :test-not #'eq))
          (held (loop for placement in placements
-                     for region = (placement-region placement
-                                                    (symbolic:trace-initial-state trace))
-                     when region collect (cons placement region))))
+                     append (loop for region in (placement-regions-in
+                                                 placement (symbolic:trace-initial-state trace))
+                                  collect (cons placement region)))))
     (cond ((null held)
            (error 'sampling-error
                   :trace trace

@@ -82,12 +82,23 @@ the journal is replaced by the second one."
   (loop for result in (reverse (search-results search))
         append (trace-result-runs result)))
 
+(defun runs-of-start (trace-search discrepancy)
+  "Return the list of (run . judgement) that TRACE-SEARCH has kept, those from the initial state of
+DISCREPANCY, and the list of the others."
+  (let ((parameters (sample-parameters (discrepancy-sample discrepancy))))
+    (loop for entry in (reverse (trace-search-runs trace-search))
+          if (eq (sample-parameters (run-sample (car entry))) parameters)
+            collect entry into same
+          else collect entry into others
+          finally (return (values same others)))))
+
 (defun note-new-kind (trace-search discrepancy)
   "Examine and keep DISCREPANCY; conclude if that is what is wanted."
   (let ((search (trace-search-search trace-search)))
     ;; What is kept at once stays if the search is ended meanwhile.
-    (setf (discrepancy-runs discrepancy) (reverse (trace-search-runs trace-search))
-          (discrepancy-other-runs discrepancy) (runs-of-earlier-traces search))
+    (multiple-value-bind (same others) (runs-of-start trace-search discrepancy)
+      (setf (discrepancy-runs discrepancy) same
+            (discrepancy-other-runs discrepancy) (append (runs-of-earlier-traces search) others)))
     (push discrepancy (trace-search-discrepancies trace-search))
     (confirm-find search discrepancy)
     (examine-find search discrepancy)
@@ -96,11 +107,11 @@ the journal is replaced by the second one."
       (:next-trace (conclude trace-search :discrepancy "a discrepancy was found"))
       (:stop (conclude trace-search :discrepancy "a discrepancy was found" t)))))
 
-(defun note-discrepancy (trace-search sample origin run judgement)
-  "Take the discrepancy that RUN of SAMPLE is into account; conclude if the trace is done with."
+(defun note-discrepancy (trace-search draw run judgement)
+  "Take the discrepancy that RUN of DRAW is into account; conclude if the trace is done with."
   (let* ((search (trace-search-search trace-search))
-         (discrepancy (make-find search (trace-search-trace trace-search) sample run judgement
-                                 origin))
+         (discrepancy (make-find search (drawn-trace draw) (drawn-sample draw) run judgement
+                                 (drawn-origin draw)))
          (kind (discrepancy-kind discrepancy))
          (known (gethash kind (search-kinds search))))
     (incf (trace-search-finds trace-search))

@@ -27,15 +27,6 @@ are those of the observed fluents, in their order."
 (defun state-from-bits (bits atoms)
   (loop for bit across bits for atom in atoms collect (cons atom (char= bit #\1))))
 
-(defun formula-as-text (condition)
-  (with-standard-io-syntax (prin1-to-string condition)))
-
-(defun formula-from-text (text)
-  "Return the ground formula in TEXT; reading it evaluates nothing."
-  (with-standard-io-syntax
-    (let ((*read-eval* nil))
-      (read-from-string text))))
-
 (defun candidate-json (outcome)
   (json:object "name" (symbolic:argument-to-json (symbolic:outcome-name outcome))
                "event" (if (symbolic:outcome-event outcome)
@@ -131,22 +122,19 @@ are those of the observed fluents, in their order."
 
 ;;; Lines
 
-(defun line-key (content origin index)
-  (format nil "~a ~(~a~) ~d" (hash-text content) origin index))
+(defun line-key (draw)
+  (format nil "~a ~(~a~) ~d" (hash-text (start-content (drawn-start draw))) (drawn-origin draw)
+          (sample-index (drawn-sample draw))))
 
-(defun journaled-run (trace-search sample origin)
-  "Return the run of SAMPLE and the judgement on it (NIL for none) from the journal of the search,
-or NIL if it is not there.  Counts as a simulation."
-  (let* ((search (trace-search-search trace-search))
-         (journal (search-journal search))
-         (line (and journal
-                    (gethash (line-key (trace-search-content trace-search) origin
-                                       (sample-index sample))
-                             (journal-lines journal)))))
+(defun journaled-run (search draw)
+  "Return the run of DRAW and the judgement on it (NIL for none) from the journal of SEARCH, or NIL
+if it is not there.  Counts as a simulation."
+  (let* ((journal (search-journal search))
+         (line (and journal (gethash (line-key draw) (journal-lines journal)))))
     (when line
       (let* ((object (json:parse line))
              (ground (symbolic:action-theory-ground (search-domain search)))
-             (run (run-from-json (json:get-key object "run") sample ground
+             (run (run-from-json (json:get-key object "run") (drawn-sample draw) ground
                                  (journal-atoms journal))))
         (when (eq (run-validity run) :valid)
           (count-simulation))
@@ -157,13 +145,12 @@ or NIL if it is not there.  Counts as a simulation."
   (write-line (json:encode object) stream)
   (finish-output stream))
 
-(defun write-run (trace-search sample origin run judgement)
-  "Write RUN of SAMPLE, with JUDGEMENT or NIL, to the journal of the search, if it has one."
-  (let ((journal (search-journal (trace-search-search trace-search))))
+(defun write-run (search draw run judgement)
+  "Write RUN of DRAW, with JUDGEMENT or NIL, to the journal of SEARCH, if it has one."
+  (let ((journal (search-journal search)))
     (when journal
       (write-line-whole (journal-stream journal)
-                        (json:object "key" (line-key (trace-search-content trace-search) origin
-                                                     (sample-index sample))
+                        (json:object "key" (line-key draw)
                                      "run" (run-json run)
                                      "judgement" (judgement-json judgement))))))
 

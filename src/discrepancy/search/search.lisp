@@ -22,22 +22,22 @@
                                               :compare (search-compare search)
                                               :comparison (search-comparison search)))
 
-(defun run-and-judge (trace-search sample origin)
-  "Return the run of SAMPLE and, if it is valid, the judgement on it; NIL if the run failed and the
+(defun run-and-judge (trace-search draw)
+  "Return the run of DRAW and, if it is valid, the judgement on it; NIL if the run failed and the
 sample was skipped.  What is in the journal of the search is not run again."
   (let ((search (trace-search-search trace-search))
-        (trace (trace-search-trace trace-search)))
-    (in-phase (search (if (eq origin :blind) :generate :target))
-      (multiple-value-bind (run judgement) (journaled-run trace-search sample origin)
+        (trace (drawn-trace draw)))
+    (in-phase (search (if (drawn-blindly-p draw) :generate :target))
+      (multiple-value-bind (run judgement) (journaled-run search draw)
         (if run
             (values run judgement)
             (loop
               (restart-case
-                  (let* ((run (simulate search sample trace))
+                  (let* ((run (simulate search (drawn-sample draw) trace))
                          (judgement (and (eq (run-validity run) :valid)
                                          (not (eq (run-ending run) :too-many-steps))
                                          (judge search run trace))))
-                    (write-run trace-search sample origin run judgement)
+                    (write-run search draw run judgement)
                     (return (values run judgement)))
                 (retry-sample ()
                   :report "Run the sample once more.")
@@ -45,35 +45,36 @@ sample was skipped.  What is in the journal of the search is not run again."
                   :report "Leave out this sample; the trace can have no certificate then."
                   (return nil)))))))))
 
-(defun note-run (trace-search sample origin run judgement)
-  "Take the valid RUN of SAMPLE into account.  Return NIL to go on, or what CONCLUDE returns."
+(defun note-run (trace-search draw run judgement)
+  "Take the valid RUN of DRAW into account.  Return NIL to go on, or what CONCLUDE returns."
   (setf (trace-search-in-a-row trace-search) 0)
+  (incf (start-accepted (drawn-start draw)))
   (cond ((null judgement)
          (conclude trace-search :undecided
                    (format nil "the run of sample ~d did not end within ~d steps"
-                           (sample-index sample) *step-limit*)))
+                           (sample-index (drawn-sample draw)) *step-limit*)))
         (t
          (keep-run trace-search run judgement)
          (ecase (judgement-verdict judgement)
-           (:discrepancy (note-discrepancy trace-search sample origin run judgement))
+           (:discrepancy (note-discrepancy trace-search draw run judgement))
            (:left-trace (incf (trace-search-left trace-search)) nil)
-           (:consistent (note-agreement trace-search sample origin run))))))
+           (:consistent (note-agreement trace-search draw run))))))
 
 (defun try-sample (trace-search)
   "Run the next sample of TRACE-SEARCH.  Return NIL to go on, or what CONCLUDE returns."
-  (multiple-value-bind (sample origin) (next-sample trace-search)
-    (multiple-value-bind (run judgement) (run-and-judge trace-search sample origin)
+  (let ((draw (next-draw trace-search)))
+    (multiple-value-bind (run judgement) (run-and-judge trace-search draw)
       (let ((valid (and run (eq (run-validity run) :valid))))
-        (when (and valid (eq origin :blind))
+        (when (and valid (drawn-blindly-p draw))
           (incf (trace-search-accepted trace-search)))
         (multiple-value-prog1
             (cond ((null run)
-                   (void trace-search "sample ~d was skipped" (sample-index sample))
+                   (void trace-search "sample ~d was skipped" (sample-index (drawn-sample draw)))
                    nil)
-                  (valid (note-run trace-search sample origin run judgement))
-                  (t (note-rejection trace-search run)))
+                  (valid (note-run trace-search draw run judgement))
+                  (t (note-rejection trace-search draw run)))
           (report-search (trace-search-search trace-search)
-                         (if (eq origin :blind) :generate :target)
+                         (if (drawn-blindly-p draw) :generate :target)
                          :rejected (trace-search-rejected trace-search)
                          :verdict (trace-search-verdict trace-search)))))))
 
@@ -166,7 +167,7 @@ SEARCH-FUNCTION returns where it has to end."
 (defun check-search-names (plan constraint rule parameters max-paths)
   (check-argument 'plan plan (and plan (symbolp plan)) "the name of a plan")
   (check-argument 'constraint constraint (typep constraint '(or symbol cons))
-                  "the name of a state constraint")
+                  "the name of a state constraint, or a formula,")
   (check-argument 'max-paths max-paths (typep max-paths '(integer 1)) "a positive integer")
   (check-argument 'parameters parameters (alexandria:proper-list-p parameters) "a property list")
   (check-argument 'rule rule (symbolp rule) "the name of a confidence rule"))
@@ -202,7 +203,8 @@ SEARCH-FUNCTION returns where it has to end."
   "Search for a discrepancy between the theory and the scene of DOMAIN along PLAN (a symbol) and
 return a SEARCH-RESULT.
   DOMAIN          a domain or its name
-  CONSTRAINT      the name of the state constraint; NIL: the theory's only one
+  CONSTRAINT      the name of the state constraint, or a formula as for MAKE-EXPLORATION; NIL: the
+                  theory's only one
   CONFIDENCE      in ]0, 1[, for the confidence RULE: :PAPER, :PAPER-SD, :PREDICTION,
                   :ZERO-FAILURE or :SOUND
   DELTA           in ]0, 1[, for the last two: the part of a trace's initial region that may be
@@ -256,6 +258,7 @@ UNKNOWN-CONFIDENCE-RULE, INVALID-CONFIDENCE, INVALID-DELTA, UNKNOWN-PARAMETER, J
                          (plan:plan-name plan) domain
                          :constraint constraint :arguments arguments :max-paths max-paths
                          :traces traces
+                         :alternatives (observed-atoms (domain-observers domain))
                          :progress (exploration-watcher (lambda () search)))))
       (setf **stop-requested** nil)
       (unwind-protect
@@ -263,7 +266,9 @@ UNKNOWN-CONFIDENCE-RULE, INVALID-CONFIDENCE, INVALID-DELTA, UNKNOWN-PARAMETER, J
              (setf search (make-instance
                            'search-state
                            :plan plan :domain domain :parameters parameters
-                           :constraint (constraint-name exploration)
+                           :constraint (if (consp constraint)
+                                           constraint
+                                           (constraint-name exploration))
                            :rule rule-object :rule-name rule :seed seed :sampler sampler
                            :targets targets :budget budget :seconds seconds
                            :keep-going keep-going :store store :shrink shrink :explain explain

@@ -56,7 +56,7 @@ cannot be done there is a warning: what was found is worth more than the file."
          (equal (name "plan") (ec:name-text (plan:plan-name (search-plan search))))
          (equal (name "domain")
                 (ec:name-text (symbolic:action-theory-name (search-domain search))))
-         (equal (json:get-key object "constraint" nil) (ec:name-text (search-constraint search)))
+         (equal (json:get-key object "constraint" nil) (constraint-text (search-constraint search)))
          (same-parameters-p (json:get-key object "parameters" nil)
                             (search-parameters search)))))
 

@@ -5,40 +5,52 @@
 ;;;; samples of the earlier rounds, predicts a final parameter nearest to its bounds or beyond.
 ;;;; The several targets of a round take the worst predictions in turn, and lie between the corner
 ;;;; and a random point, so that no two are the same.  How many samples are blind, and where these
-;;;; are, does not depend on any result.
+;;;; are, does not depend on any result.  Each start of a trace (starts.lisp) has a regression of its
+;;;; own.
 
 (in-package #:discrepancy-finder.discrepancy)
 
 (defconstant +round+ 8
   "The number of samples in a round.")
 
-(defstruct (targeting (:constructor %make-targeting (region regression)) (:copier nil))
-  "Where targets lie: REGRESSION is over the samples of earlier rounds, FRESH are the values
-(initial . final) of the present one, newest first.  POSITION counts the draws, COUNT those that
-were targets; CORNERS are the predicted-worst ones for the present round."
+(defstruct (aim (:constructor make-aim (region regression)) (:copier nil))
+  "Where the targets of a start with the PARAMETER-REGION REGION lie: REGRESSION is over the samples
+of earlier rounds, FRESH are the values (initial . final) of the present one, newest first; CORNERS
+are the predicted-worst ones for the present round."
   (region nil :read-only t)
   (regression nil :read-only t)
   (fresh '() :type list)
-  (corners '() :type list)
+  (corners '() :type list))
+
+(defstruct (targeting (:constructor %make-targeting (aims)) (:copier nil))
+  "The AIMS of the starts of a trace, a vector.  POSITION counts the draws, COUNT those that were
+targets."
+  (aims #() :type simple-vector :read-only t)
   (position 0 :type (integer 0))
   (count 0 :type (integer 0)))
 
-(defun make-targeting (region)
-  "Return a new TARGETING for samples from the PARAMETER-REGION REGION."
-  (%make-targeting region
-                   (make-regression (length (parameter-region-initial-bounds region))
-                                    (length (parameter-region-final-bounds region)))))
+(defun make-targeting (regions)
+  "Return a new TARGETING for samples from the PARAMETER-REGIONs REGIONS, one for each start."
+  (%make-targeting
+   (map 'simple-vector
+        (lambda (region)
+          (make-aim region (make-regression (length (parameter-region-initial-bounds region))
+                                            (length (parameter-region-final-bounds region)))))
+        regions)))
 
-(defun note-values (targeting initial final)
-  "Keep the vectors INITIAL and FINAL of a sample for the rounds to come."
-  (push (cons initial final) (targeting-fresh targeting)))
+(defun targeting-aim (targeting start)
+  (svref (targeting-aims targeting) start))
+
+(defun note-values (targeting start initial final)
+  "Keep the vectors INITIAL and FINAL of a sample of START, a number, for the rounds to come."
+  (push (cons initial final) (aim-fresh (targeting-aim targeting start))))
 
 (defun begin-round (targeting)
   "Let the samples of the round that ends have a say in the next one."
-  (loop for (initial . final) in (reverse (shiftf (targeting-fresh targeting) '()))
-        do (add-observation (targeting-regression targeting) initial final))
-  (setf (targeting-corners targeting)
-        (worst-corners (targeting-regression targeting) (targeting-region targeting))))
+  (loop for aim across (targeting-aims targeting)
+        do (loop for (initial . final) in (reverse (shiftf (aim-fresh aim) '()))
+                 do (add-observation (aim-regression aim) initial final))
+           (setf (aim-corners aim) (worst-corners (aim-regression aim) (aim-region aim)))))
 
 (defun next-origin (targeting)
   "Return how the next sample is to be drawn, :BLIND or :TARGETED."
@@ -81,13 +93,20 @@ it; the upper ends of BOUNDS are not reached."
                        (cdr pair)))
          bounds)))
 
-(defun target-sample (targeting parameters seed content)
-  "Return the next target of TARGETING for PARAMETERS: a function of SEED, CONTENT and the samples
-of earlier rounds."
-  (let* ((index (1- (incf (targeting-count targeting))))
-         (content (logxor content #x5461726765747321))
-         (bounds (parameter-region-initial-bounds (targeting-region targeting)))
-         (corners (targeting-corners targeting))
+(defun next-target (targeting)
+  "Return the number of the next target, from 0."
+  (1- (incf (targeting-count targeting))))
+
+(defun target-content (content)
+  "Return the hash for the draws of targets where CONTENT is that for blind ones."
+  (logxor content #x5461726765747321))
+
+(defun target-sample (aim parameters seed content index)
+  "Return target INDEX of a search, one of AIM, for PARAMETERS: a function of SEED, CONTENT and the
+samples of earlier rounds."
+  (let* ((content (target-content content))
+         (bounds (parameter-region-initial-bounds (aim-region aim)))
+         (corners (aim-corners aim))
          (corner (if corners
                      (nth (mod index (length corners)) corners)
                      (random-corner bounds seed content index)))

@@ -17,6 +17,8 @@
    (types :initarg :types :reader exploration-types
           :documentation "What PARAMETER-TYPES returns.")
    (traces :initarg :traces :reader exploration-mode :documentation "See PATH-TRACES.")
+   (alternatives :initarg :alternatives :reader exploration-alternatives
+                 :documentation "The atoms in which alternatives of traces differ.")
    (order :initarg :order :reader exploration-order
           :documentation "The order of the paths, a keyword.")
    (seed :initarg :seed :reader exploration-seed :documentation "The seed of the order :RANDOM.")
@@ -171,10 +173,10 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
         do (check-option name value "a natural number" (typep value '(integer 0)))))
 
 (defun make-exploration (plan domain
-                         &key constraint arguments (traces :last) (order :depth-first) (seed 0)
-                           (max-paths 10000) (max-steps 1000) (max-jumps 1000000) max-seconds
-                           interleavings coverage file-output progress solver-timeout
-                           solver-options (on-unknown :keep) keep-errors)
+                         &key constraint arguments (traces :last) alternatives
+                           (order :depth-first) (seed 0) (max-paths 10000) (max-steps 1000)
+                           (max-jumps 1000000) max-seconds interleavings coverage file-output
+                           progress solver-timeout solver-options (on-unknown :keep) keep-errors)
   "Return an EXPLORATION of the plan named PLAN (a symbol) in DOMAIN (an ACTION-THEORY or its name).
   CONSTRAINT  a state constraint, its name, or a formula over ?time and (+ ?time n); with NIL the
               theory's only one; :ANY-ACTION: each performed action ends a trace
@@ -182,6 +184,8 @@ answer), :SECONDS in all, :SOLVER-SECONDS in Z3, :EVALUATION-SECONDS elsewhere."
   TRACES      :LAST, a path is cut after the last time at which the constraint holds on it;
               :EVERY-INSTANCE, each prefix of a path that ends in an instance is a trace, or
               :FIRST-INSTANCE, the shortest; :EVERY-STATE, as :LAST, from every initial state
+  ALTERNATIVES  a list of ground atoms: each trace is handed out with its TRACE-ALTERNATIVES, which
+              differ in the truth of some of these initially; not with :EVERY-STATE
   ORDER       of the paths: :DEPTH-FIRST, :BREADTH-FIRST, :RANDOM with SEED, or :COVERAGE: options
               that were never taken come first
   MAX-PATHS, MAX-STEPS (performs on a path), MAX-JUMPS (iterations of loops and retries on a path)
@@ -222,6 +226,7 @@ UNSUPPORTED-FORM."
                                 (ec:ground-formula ground
                                                    (ec:state-constraint-formula constraint)))
                    :traces (if (and any-action (eq traces :last)) :every-instance traces)
+                   :alternatives (if (eq traces :every-state) '() alternatives)
                    :order order :seed seed :interleavings interleavings
                    :recorder (and coverage (make-recorder))
                    :file-output (and file-output t) :keep-errors (and keep-errors t)

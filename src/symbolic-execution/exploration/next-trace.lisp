@@ -126,6 +126,7 @@ NIL if there is no path."
         (make-finished-run :path path :arguments arguments :output output
                            :formula (exploration-formula exploration)
                            :span (exploration-span exploration)
+                           :atoms (exploration-alternatives exploration)
                            :first-p (null (exploration-found exploration)))))))
 
 (defun call-timed (exploration function)

@@ -1,7 +1,8 @@
 ;;;; Execution traces: what a plan does to the world, according to the theory.
 ;;;;
 ;;;; An EXECUTION-TRACE has a concrete initial state, the steps that the plan performs from it, and
-;;;; the states that follow by the theory.  Traces are made in traces-of-paths.lisp.
+;;;; the states that follow by the theory.  Its ALTERNATIVES begin in other states and take the same
+;;;; path.  Traces are made in traces-of-paths.lisp.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
@@ -26,14 +27,17 @@ form with its source position, the text of the CHOICE, and TIME, the number of s
 (defstruct (execution-trace (:conc-name trace-) (:copier nil))
   "STATES begins with the initial state and has one element more than STEPS.  ARGUMENTS are the
 plan's.  ENDING is how the whole run ends: :FINISHED, a failure class, or a keyword for what cut it
-off.  OUTPUT is what the whole run has printed."
+off.  OUTPUT is what the whole run has printed.  ALTERNATIVES are traces, and MORE-P is true if
+there are others."
   (plan nil :type symbol :read-only t)
   (arguments '() :type list :read-only t)
   (steps '() :type list :read-only t)
   (states '() :type cons :read-only t)
   (decisions '() :type list :read-only t)
   (ending :finished :type symbol :read-only t)
-  (output "" :type string :read-only t))
+  (output "" :type string :read-only t)
+  (alternatives '() :type list)
+  (more-p nil :type boolean))
 
 (setf (documentation 'make-execution-trace 'function)
       "Return a new execution trace."
@@ -51,7 +55,13 @@ off.  OUTPUT is what the whole run has printed."
       "Return how the run ends whose beginning a trace is: :FINISHED, a failure class, or what cut
 it off: :DEAD-END, :TOO-MANY-STEPS, :TOO-MANY-JUMPS, :OUT-OF-TIME, :ERROR."
       (documentation 'trace-output 'function)
-      "Return what the run whose beginning a trace is has printed, a string.")
+      "Return what the run whose beginning a trace is has printed, a string."
+      (documentation 'trace-alternatives 'function)
+      "Return the list of the traces that take the same path as a trace, as far as it goes, from
+other initial states; those that differ in the atoms which the exploration was asked for, the least
+ones first."
+      (documentation 'trace-more-p 'function)
+      "Return true if a trace has more alternatives than TRACE-ALTERNATIVES returns.")
 
 (defun trace-initial-state (trace)
   "Return the discrete initial state of TRACE."

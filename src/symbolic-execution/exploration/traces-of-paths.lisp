@@ -6,20 +6,22 @@
 ;;;;                     later is not asked for
 ;;;;   :FIRST-INSTANCE   only the shortest of them on each path
 ;;;;   :EVERY-STATE      as :LAST, from every initial state, the least first
-;;;; A path may go on to a failure, or to where the theory allows nothing.  Entry point:
+;;;; A path may go on to a failure, or to where the theory allows nothing.  What the path leaves open
+;;;; of the initial state may be asked for, too: a trace has ALTERNATIVES then.  Entry point:
 ;;;; PATH-TRACES.
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
 (defstruct (finished-run (:conc-name run-) (:copier nil))
   "A run that is over: its PATH, the symbolic ARGUMENTS, what it has printed, and what is looked
-for on it: the ground FORMULA of a state constraint over SPAN steps.  FIRST-P is true while no
-earlier run had a trace."
+for on it: the ground FORMULA of a state constraint over SPAN steps, and alternatives that differ
+in ATOMS.  FIRST-P is true while no earlier run had a trace."
   (path nil :type path :read-only t)
   (arguments '() :type list :read-only t)
   (output "" :type string :read-only t)
   (formula nil :read-only t)
   (span 0 :type (integer 0) :read-only t)
+  (atoms '() :type list :read-only t)
   (first-p nil :type boolean :read-only t)
   (missed nil :type boolean))             ; whether Z3 found no state where there may be one
 
@@ -84,6 +86,48 @@ state that the solver allows, or NIL if it finds none.  NOTE is called with the 
         (progn (setf (run-missed run) t)
                nil))))
 
+;;; Alternatives
+
+(defparameter *alternatives-wanted* 63
+  "A trace has at most so many alternatives.")
+
+(defun other-values (run trace)
+  "Return the proposition that one of the atoms of RUN is initially another than in TRACE."
+  (let ((initial (first (last (path-states (run-path run))))))
+    (z3:disjunction
+     (loop for atom in (run-atoms run)
+           for proposition = (ec:fluent-value initial atom)
+           when (z3:term-p proposition)
+             collect (if (ec:fluent-value (trace-initial-state trace) atom)
+                         (z3:negation proposition)
+                         proposition)))))
+
+(defun another-trace-p (run others)
+  "Hold that the atoms of RUN are others than in the first of OTHERS, its traces found so far, in
+the open scope of the solver.  Return true if there may be such a trace."
+  (let ((oracle (run-oracle run)) (difference (other-values run (first others))))
+    (and difference
+         (progn (assert-all oracle (list difference))
+                (not (eq (ask oracle) :unsat))))))
+
+(defun trace-and-alternatives (run length)
+  "Return the trace of the first LENGTH steps of RUN from the least initial state that the solver
+allows, with its alternatives; or NIL if it finds none."
+  (let ((oracle (run-oracle run)))
+    (flet ((next-least ()
+             (with-oracle-scope (oracle) (least-trace run length))))
+      (with-oracle-scope (oracle)
+        (let* ((trace (next-least)) (found (and trace (list trace))))
+          (loop while (and found (another-trace-p run found))
+                do (let ((other (and (<= (length found) *alternatives-wanted*) (next-least))))
+                     (unless other
+                       (setf (trace-more-p trace) t)
+                       (return))
+                     (push other found)))
+          (when found
+            (setf (trace-alternatives trace) (rest (reverse found))))
+          trace)))))
+
 (defun last-trace (run)
   "Return the list of the trace of RUN that ends with its last instance; or NIL."
   (loop for (time . proposition) in (instances run)
@@ -91,7 +135,7 @@ state that the solver allows, or NIL if it finds none.  NOTE is called with the 
           do (let ((oracle (run-oracle run)))
                (return (with-oracle-scope (oracle)
                          (assert-all oracle (list proposition))
-                         (let ((trace (least-trace run (+ time (run-span run)))))
+                         (let ((trace (trace-and-alternatives run (+ time (run-span run)))))
                            (and trace (list trace))))))))
 
 (defun prefix-traces (run)
@@ -106,7 +150,7 @@ those that an earlier run with the same beginning had."
              (with-oracle-scope (oracle)
                (assert-all oracle (list proposition))
                (unless (eq (ask oracle) :unsat)
-                 (let ((trace (least-trace run length)))
+                 (let ((trace (trace-and-alternatives run length)))
                    (when trace (push trace traces))))))
     traces))
 
@@ -127,14 +171,14 @@ run with the same beginning had it."
       (destructuring-bind (time . proposition) first
         (with-oracle-scope (oracle)
           (assert-all oracle (list proposition))
-          (let ((trace (least-trace run (+ time (run-span run)))))
+          (let ((trace (trace-and-alternatives run (+ time (run-span run)))))
             (and trace (list trace))))))))
 
 (defun whole-trace (run)
   "Return the list of the trace of RUN as a whole."
   (let ((oracle (run-oracle run)))
     (with-oracle-scope (oracle)
-      (let ((trace (least-trace run (length (path-steps (run-path run))))))
+      (let ((trace (trace-and-alternatives run (length (path-steps (run-path run))))))
         (and trace (list trace))))))
 
 ;;; Every state
