@@ -348,7 +348,7 @@ The environment variable CXX names another compiler than g++."))
                 :components ((:file "meter") (:file "actions") (:file "execution")
                              (:file "scene-runs")))
                (:module "judgement" :serial t
-                :components ((:file "judgement") (:file "comparisons")))
+                :components ((:file "memory") (:file "judgement") (:file "comparisons")))
                (:module "results" :serial t
                 :components ((:file "results") (:file "search-results") (:file "statements")
                              (:file "report") (:file "result-json")))

@@ -80,13 +80,10 @@ truth)."
 
 (defun judge-alone (domain run)
   "Return the JUDGEMENT on RUN, made for no trace, by the theory of DOMAIN."
-  (call-with-judge
-   (lambda (solver state)
-     (multiple-value-bind (consistent divergence)
-         (judge-steps domain solver state (run-steps run) nil :consistent)
-       (make-judgement :divergence divergence
-                       :verdict (if consistent :consistent :discrepancy))))
-   domain run nil))
+  (multiple-value-bind (consistent divergence)
+      (judged-steps domain (run-initial-state run) (run-steps run))
+    (make-judgement :divergence divergence
+                    :verdict (if consistent :consistent :discrepancy))))
 
 (defun mapped-p (run state)
   "Return true if RUN began in STATE, a list of (atom . truth)."

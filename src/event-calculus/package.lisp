@@ -21,7 +21,7 @@ them and why, and what they say of a state after known events.")
    ;; revised theories
    #:revised-theory #:effect-axioms #:event-axioms #:state-axioms
    ;; names and atoms
-   #:name-keyword #:name-text #:atom-text #:text-atom
+   #:name-keyword #:name-text #:atom-text #:text-atom #:make-term-table
    ;; formulas
    #:parse-formula #:formula-text
    ;; state constraints

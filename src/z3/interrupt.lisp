@@ -131,10 +131,16 @@ one."
       (min most-positive-fixnum (ceiling (* 1000000000 (rational seconds))))
       most-positive-fixnum))
 
+(defvar *on-check* nil
+  "NIL, or a function of the wall-clock time (s, a double float) of a check, called after each that
+this thread makes, in whatever context.")
+
 (defun end-check (foreign)
   "Tell the watcher that the check in FOREIGN is over, once it has its hands off it."
-  (incf (foreign-context-check-time foreign)
-        (- (foreign:monotonic-nanoseconds) (foreign-context-started foreign)))
+  (let ((time (- (foreign:monotonic-nanoseconds) (foreign-context-started foreign))))
+    (incf (foreign-context-check-time foreign) time)
+    (when *on-check*
+      (funcall *on-check* (* 1d-9 time))))
   (loop until (eq (sb-ext:compare-and-swap (foreign-context-checker foreign)
                                            sb-thread:*current-thread* nil)
                   sb-thread:*current-thread*)

@@ -10,7 +10,7 @@
    #:retry-with-timeout #:treat-as-sat
    ;; contexts
    #:context #:context-p #:make-context #:close-context #:with-context
-   #:check-count #:check-seconds #:z3-version
+   #:check-count #:check-seconds #:*on-check* #:z3-version
    ;; sorts
    #:sort #:sort-p #:sort-context #:sort-kind #:sort-name #:sort-elements
    #:boolean-sort #:integer-sort #:real-sort #:enumeration-sort

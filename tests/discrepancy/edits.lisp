@@ -169,6 +169,23 @@
               (append (discrepancy:run-initial-state near) '(((:elsewhere) . t))))
         (is (null (edits elsewhere)))))))
 
+(test edits-are-offered-as-far-as-they-are-checked
+  (let ((trace (example-trace)))
+    (multiple-value-bind (passing failing) (runs-with-short-arm trace)
+      (flet ((edits (seconds)
+               (mapcar #'discrepancy:edit-text
+                       (discrepancy:candidate-edits (short-arm-discrepancy trace failing)
+                                                    :runs passing :max-seconds seconds)))
+             (checked (deadline)
+               (z3:with-context (context)
+                 (discrepancy::agreements (two-regions) passing context
+                                          (discrepancy::make-memory) deadline))))
+        (is (null (edits 0)))
+        (is (= 3 (length (checked nil))))
+        (is (null (checked (- (foreign:monotonic-seconds) 1))))
+        (is-true (edits nil))
+        (is (equal (edits nil) (edits 600)))))))
+
 (test a-wrong-edit-is-contradicted
   (let ((trace (example-trace)) (domain (two-regions)))
     (multiple-value-bind (passing failing) (runs-with-short-arm trace)

@@ -181,6 +181,34 @@
       (is (null (discrepancy:explanation-influences
                  (discrepancy:explain-discrepancy discrepancy :max-runs 0)))))))
 
+(test explanations-keep-to-their-time
+  (let ((explanation (discrepancy:explain-discrepancy (found-in-example 1) :max-seconds 0)))
+    (is (zerop (discrepancy:explanation-probes explanation)))
+    (is (null (discrepancy:explanation-edits explanation)))
+    (is-true (discrepancy:explanation-grounds explanation))))
+
+(test what-z3-does-for-explanations-is-metered
+  (let ((meter (discrepancy::make-meter)) (checks 0))
+    (let ((discrepancy (found-in-example 1)))
+      (discrepancy::with-meter (meter)
+        (discrepancy:explain-discrepancy discrepancy :max-runs 0)))
+    (is (zerop (discrepancy::meter-simulations meter)))
+    (is (plusp (discrepancy::meter-solver-seconds meter)))
+    ;; Checks are counted in whatever context, and only where it was asked for.
+    (flet ((ask (context)
+             (z3:with-solver (solver context)
+               (z3:check solver (list (z3:variable context "p"))))))
+      (z3:with-context (one)
+        (z3:with-context (other)
+          (let ((z3:*on-check* (lambda (seconds)
+                                 (is (typep seconds '(double-float 0d0)))
+                                 (incf checks))))
+            (ask one)
+            (ask other)
+            (ask other))
+          (ask one))))
+    (is (= 3 checks))))
+
 (test the-nearest-run-that-agrees-is-where-to-begin
   "From a run that agrees and differs in all coordinates, those that do not matter are left out."
   (let* ((trace (example-trace))

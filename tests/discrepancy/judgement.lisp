@@ -157,3 +157,25 @@
     (is (equal '(:agrees :outcome-forbidden :not-judged)
                (mapcar #'discrepancy:step-comparison-verdict
                        (discrepancy:step-comparisons (two-regions) both trace))))))
+
+(test what-the-theory-cannot-tell-apart-is-judged-once
+  (let* ((trace (example-trace))
+         (run (run-of trace 0.8 0.5 0 1.5 0.4 0))
+         (beside (run-of trace 0.8 0.51 0.01 1.52 0.4 0))
+         (dropped (changed-run run 2 '((:holding-box))))
+         (memory (discrepancy::make-memory)))
+    (z3:with-context (context)
+      (flet ((judged (run &rest options)
+               "The judgement on RUN, and whether Z3 was asked."
+               (let ((before (z3:check-count context)))
+                 (list (apply #'verdict-steps-of (two-regions) run trace
+                              :context context :memory memory options)
+                       (< before (z3:check-count context))))))
+        (is (equal '((:consistent) t) (judged run)))
+        (is (equal '((:consistent) nil) (judged run)))
+        (is (equal '((:consistent) nil) (judged beside)))
+        ;; Seen by another comparison, or something else seen, is another question.
+        (is (equal '((:consistent) t) (judged beside :comparison :exact)))
+        (is (equal '((:consistent 2 (((:holding-box) t nil))) t) (judged dropped)))
+        (is (equal '((:discrepancy 2 (((:holding-box) t nil))) nil)
+                   (judged dropped :compare :every-step)))))))

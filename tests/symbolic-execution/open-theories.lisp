@@ -116,11 +116,19 @@
   (explore-coins 'coin-paid "(def-top-level-cram-function coin-plan () 1)")
   (let ((ground (symbolic:action-theory-ground (symbolic:find-action-theory :coins))))
     (flet ((along (fluents &rest events)
-             (multiple-value-bind (states refused)
-                 (symbolic:states-along ground fluents
-                                        (loop for event in events
-                                              collect (symbolic:make-trace-step :event event)))
-               (or refused (mapcar #'ec:state-fluents states)))))
+             (flet ((answer (context)
+                      (multiple-value-bind (states refused)
+                          (symbolic:states-along
+                           ground fluents
+                           (loop for event in events
+                                 collect (symbolic:make-trace-step :event event))
+                           :context context)
+                        (or refused (mapcar #'ec:state-fluents states)))))
+               (z3:with-context (context)
+                 ;; What was asked before in the same context makes no difference.
+                 (is (equal (answer nil) (answer context)))
+                 (is (equal (answer nil) (answer context))))
+               (answer nil))))
       (is (equal '(() () ((:paid :c1))) (along '() '(:toss :c1) '(:pay :c1))))
       (is (equal '(((:heads :c1) (:heads :c2)) ((:heads :c1) (:heads :c2) (:lamp)))
                  (along '((:heads :c1) (:heads :c2)) nil))))))

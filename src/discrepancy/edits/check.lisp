@@ -27,25 +27,32 @@ DOMAIN has and the domain of RUN had not, by the run's sample."
                   collect (cons (coordinate-range-atom observer)
                                 (in-coordinate-range-p observer value)))))
 
-(defun first-divergence (domain run context)
+(defun first-divergence (domain run context &optional memory)
   "Return the first divergence of RUN, of a domain that differs in theory and action bindings only,
-by DOMAIN, or NIL.  CONTEXT is a Z3 context."
-  (z3:with-released-terms (context)
-    (z3:with-solver (solver context)
-      (let ((state (free-state (symbolic:action-theory-ground domain) context
-                               (initial-observation domain run))))
-        (loop for (nil . proposition) in (ec:initial-conditions state)
-              do (z3:solver-assert solver proposition))
-        (nth-value 1 (judge-steps domain solver state (refreshed-steps domain run) nil
-                                  :consistent))))))
+by DOMAIN, or NIL.  CONTEXT is a Z3 context, MEMORY a memory of judgements or NIL."
+  (nth-value 1 (judged-steps domain (initial-observation domain run) (refreshed-steps domain run)
+                             :context context :memory memory)))
 
-(defun agreement (domain run context)
+(defun agreement (domain run context &optional memory)
   "Return how far the theory of DOMAIN agrees with RUN: twice the number of the steps before the
-first divergence, one more if at that step the outcome agrees and the state does not."
-  (let ((divergence (first-divergence domain run context)))
+first divergence, one more if at that step the outcome agrees and the state does not.  CONTEXT and
+MEMORY are as for FIRST-DIVERGENCE."
+  (let ((divergence (first-divergence domain run context memory)))
     (cond ((null divergence) (* 2 (1+ (length (run-steps run)))))
           ((eq (divergence-kind divergence) :outcome) (* 2 (divergence-step divergence)))
           (t (1+ (* 2 (divergence-step divergence)))))))
+
+(defun over-p (deadline)
+  "Return true if DEADLINE, a time (s) or NIL for never, has passed."
+  (and deadline (> (foreign:monotonic-seconds) deadline)))
+
+(defun agreements (domain runs context memory &optional deadline)
+  "Return how far the theory of DOMAIN agrees with each of RUNS, in order, and true; NIL and NIL if
+that is not known by the DEADLINE."
+  (values (loop for run in runs
+                when (over-p deadline) do (return-from agreements (values '() nil))
+                collect (agreement domain run context memory))
+          t))
 
 (defun event-possible-p (domain event context)
   "Return true if the theory of DOMAIN allows EVENT in some state, an initial one or not."
@@ -63,24 +70,26 @@ edited, a state in which the action can succeed."
   (or (null (edit-requirements edit))
       (event-possible-p domain (transition-success transition) context)))
 
-(defun checked-edit (domain parts transition run runs agreed context)
+(defun checked-edit (domain parts transition run runs agreed context &optional deadline)
   "Return the EDIT of PARTS (kind sentences replaced requirements ranges) of DOMAIN, checked against
-RUNS, or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed.
-AGREED tells how far the theory agrees with RUNS now; RUN, one of RUNS, is that of the discrepancy."
+RUNS, or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed, or
+the check takes longer than to the DEADLINE.  AGREED tells how far the theory agrees with RUNS now;
+RUN, one of RUNS, is that of the discrepancy."
   (destructuring-bind (kind sentences replaced &optional requirements ranges) parts
     (flet ((edit (&rest figures)
              (apply #'make-edit :kind kind :sentences sentences :replaced replaced
                                 :requirements requirements :ranges ranges
                                 :runs (length runs) figures)))
-      (let* ((edited (handler-case (edited-domain domain (edit))
-                       (ec:theory-error () (return-from checked-edit nil))))
-             (now (if (requirements-possible-p edited (edit) transition context)
-                      (loop for run in runs collect (agreement edited run context))
-                      (return-from checked-edit nil)))
-             (place (position run runs)))
-        (edit :removes-p (> (nth place now) (nth place agreed))
-              :contradicted (loop for before in agreed for after in now
-                                  count (< after before)))))))
+      (let ((edited (handler-case (edited-domain domain (edit))
+                      (ec:theory-error () nil)))
+            (place (position run runs)))
+        (when (and edited (requirements-possible-p edited (edit) transition context))
+          (multiple-value-bind (now known)
+              (agreements edited runs context (make-memory) deadline)
+            (when known
+              (edit :removes-p (> (nth place now) (nth place agreed))
+                    :contradicted (loop for before in agreed for after in now
+                                        count (< after before))))))))))
 
 (defun edit-weight (edit)
   "Return a number that is less for the better of two edits that remove a discrepancy and contradict
@@ -140,19 +149,25 @@ with them."
                         (outcome-edits domain transitions transition context))
                 (state-edits domain transitions transition divergence)))))
 
-(defun edits-for-run (domain run runs context)
-  "Return the checked edits of DOMAIN for the first divergence of RUN, one of RUNS, best first."
+(defun edits-for-run (domain run runs context &optional deadline)
+  "Return the checked edits of DOMAIN for the first divergence of RUN, one of RUNS, best first: those
+whose check is done by the DEADLINE, a time (s) or NIL."
   (let* ((divergence (first-divergence domain run context))
          (transition (and divergence
                           (nth (divergence-step divergence) (run-transitions domain run)))))
-    (when transition
-      (let ((agreed (loop for run in runs collect (agreement domain run context))))
+    (multiple-value-bind (agreed known)
+        (if transition
+            (agreements domain runs context (make-memory) deadline)
+            (values '() nil))
+      (when known
         (stable-sort
          (loop with checked = 0
                for parts in (remove-duplicates (edit-parts-for domain transition run runs agreed
                                                                divergence context)
                                                :test #'equalp :from-end t)
-               for edit = (checked-edit domain parts transition run runs agreed context)
+               for edit = (and (not (over-p deadline))
+                               (checked-edit domain parts transition run runs agreed context
+                                             deadline))
                when edit
                  collect edit and do (incf checked)
                until (= checked *edits-checked*))
@@ -185,14 +200,15 @@ contradicts nothing; else with the best two."
 
 (defun candidate-edits (discrepancy &key (runs (append (known-runs discrepancy)
                                                        (other-runs discrepancy)))
-                                      guesses)
+                                      guesses max-seconds)
   "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
 checked by judging again RUNS, a list of valid runs or of (RUN . JUDGEMENT) in the same domain, and
 the run of DISCREPANCY itself.  By default RUNS are those that the search had
 made, of this trace and of earlier ones.  With GUESSES preconditions of what has succeeded in no run
-are not left out."
-  (let* ((run (discrepancy-run discrepancy))
+are not left out.  What is not checked within MAX-SECONDS (NIL: no limit) is not in the list."
+  (let* ((deadline (and max-seconds (+ (foreign:monotonic-seconds) max-seconds)))
+         (run (discrepancy-run discrepancy))
          (runs (adjoin run (plain-runs runs)))
          (edits (z3:with-context (context)
-                  (edits-for-run (discrepancy-domain discrepancy) run runs context))))
+                  (edits-for-run (discrepancy-domain discrepancy) run runs context deadline))))
     (if guesses edits (without-guesses edits))))

@@ -35,10 +35,6 @@ or NIL), the event SUCCESS that the binding of CLASS and TYPE has on success, an
                          (subtypep seen name))))
                  outcomes))
 
-(defun read-back-p (step)
-  "Return true if STEP was read from a journal, where a designator is a text."
-  (stringp (run-step-designator step)))
-
 (defun refreshed-step (domain step)
   "Return STEP, of a run in some domain, with the outcomes that it can be in DOMAIN; of one that was
 read back nothing more is known."

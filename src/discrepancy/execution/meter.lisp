@@ -1,26 +1,33 @@
-;;;; Metering: how many simulations a piece of work made, and how long they took.
+;;;; Metering: how many simulations a piece of work made, and how long they and Z3 took.
 ;;;;
 ;;;; A search wants to know what its phases cost, also those in which other parts of the system run
-;;;; simulations of their own.  Within WITH-METER the execution of samples adds to a METER; a sample
-;;;; that is not valid costs time, but is no simulation.
+;;;; simulations and solvers of their own.  Within WITH-METER the execution of samples and the
+;;;; checks of Z3, in whatever context of this thread, add to a METER; a sample that is not valid
+;;;; costs time, but is no simulation.
 
 (in-package #:discrepancy-finder.discrepancy)
 
 (defstruct (meter (:copier nil))
-  "The number of SIMULATIONS and the SECONDS that the simulator took."
+  "The number of SIMULATIONS, the SECONDS that the simulator took, and the SOLVER-SECONDS spent
+inside of Z3's checks."
   (simulations 0 :type (integer 0))
-  (seconds 0d0 :type double-float))
+  (seconds 0d0 :type double-float)
+  (solver-seconds 0d0 :type double-float))
 
 (defvar *meter* nil
   "The METER that counts simulations, or NIL.")
 
 (defmacro with-meter ((meter) &body body)
-  "Evaluate BODY and let METER count its simulations."
-  `(let ((*meter* ,meter)) ,@body))
+  "Evaluate BODY and let METER count its simulations and the time of its checks."
+  `(let ((*meter* ,meter) (z3:*on-check* #'count-check))
+     ,@body))
 
 (defun count-simulation ()
   (when *meter*
     (incf (meter-simulations *meter*))))
+
+(defun count-check (seconds)
+  (incf (meter-solver-seconds *meter*) seconds))
 
 (defun call-timed (function)
   "Return what FUNCTION returns; the time it takes is the simulator's."

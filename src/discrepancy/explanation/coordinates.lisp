@@ -38,6 +38,7 @@ simulation agree.")
 (defclass prober ()
   ((discrepancy :initarg :discrepancy :reader prober-discrepancy)
    (context :initarg :context :reader prober-context :documentation "A Z3 context.")
+   (memory :initform (make-memory) :reader prober-memory)
    (seen :initarg :seen :initform '() :reader prober-seen
          :documentation "The (run . judgement) of the search.")
    (left :initarg :left :accessor prober-left :documentation "The number of runs left.")
@@ -85,7 +86,8 @@ simulation part first at the same kind of action, in the same predicate or failu
                                     :compare (discrepancy-compare discrepancy)
                                     :comparison (judgement-comparison
                                                  (discrepancy-judgement discrepancy))
-                                    :context (prober-context prober))))
+                                    :context (prober-context prober)
+                                    :memory (prober-memory prober))))
           (push (cons run judgement) (prober-runs prober))
           (cond ((agreeing-p judgement) :agrees)
                 ((same-kind-p discrepancy run judgement) :fails)

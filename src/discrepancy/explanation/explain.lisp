@@ -148,28 +148,37 @@ RUN has followed it so far, else that of success."
                                                   (discrepancy-judgement discrepancy))
                                      :context context)))))
 
+(defparameter *part-for-runs* 2/3
+  "This part of the time for an explanation is for runs; what is left of it is for edits.")
+
 (defun explain-discrepancy (discrepancy &key (runs (known-runs discrepancy)) (max-runs 30)
                                           max-seconds)
   "Return the EXPLANATION of DISCREPANCY.  RUNS are the valid runs of its trace so far, or pairs
-\(run . judgement).  At most MAX-RUNS further runs, begun within MAX-SECONDS (NIL: no limit), find
-out which coordinates decide; with 0 none are made.  EXPLANATION-TEXT tells it in words.  Signals
+\(run . judgement).  At most MAX-RUNS further runs find out which coordinates decide; with 0 none
+are made.  None is begun after two thirds of MAX-SECONDS (NIL: no limit), and edits are offered as
+far as they are checked when these are over.  EXPLANATION-TEXT tells it in words.  Signals
 INVALID-ARGUMENT."
   (check-argument 'max-runs max-runs (typep max-runs '(integer 0)) "an integer from 0 on")
   (z3:with-context (context)
-    (let* ((known (judged-runs discrepancy runs context))
+    (let* ((start (foreign:monotonic-seconds))
+           (known (judged-runs discrepancy runs context))
            (known (if (find (discrepancy-run discrepancy) known :key #'car)
                       known
                       (append known (list (cons (discrepancy-run discrepancy)
                                                 (discrepancy-judgement discrepancy))))))
            (others (other-runs discrepancy)))
       (multiple-value-bind (influences probes count)
-          (find-influences discrepancy known :max-runs max-runs :max-seconds max-seconds
-                                             :context context)
+          (find-influences discrepancy known
+                           :max-runs max-runs :context context
+                           :max-seconds (and max-seconds (* *part-for-runs* max-seconds)))
         (apply #'make-explanation
                :influences influences :probes count :others (length others)
                :agreeing (count-if #'agreeing-p known :key #'cdr)
                :differing (count-if-not #'agreeing-p known :key #'cdr)
-               :edits (candidate-edits discrepancy
-                                       :runs (append (mapcar #'car (append known probes))
-                                                     others))
+               :edits (candidate-edits
+                       discrepancy
+                       :runs (append (mapcar #'car (append known probes)) others)
+                       :max-seconds (and max-seconds
+                                         (max 0 (- (+ start max-seconds)
+                                                   (foreign:monotonic-seconds)))))
                (theory-side discrepancy))))))

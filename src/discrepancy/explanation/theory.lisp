@@ -49,7 +49,7 @@ LAST."
                             moments)
                       (= (1+ number) last))
                     domain solver state (run-steps run) trace :consistent)))
-     domain run nil)
+     domain (run-initial-state run) nil)
     (coerce (reverse moments) 'vector)))
 
 (defun moment-value (moment atom)

@@ -73,7 +73,7 @@ DOMAIN.  COMPARISON and CONTEXT are as for JUDGE-RUN."
                           comparisons)
                     nil)
                   domain solver state (run-steps run) trace comparison))
-     domain run context)
+     domain (run-initial-state run) context)
     (append (reverse comparisons)
             (loop for step in (nthcdr (length comparisons) (run-steps run))
                   for number from (length comparisons)

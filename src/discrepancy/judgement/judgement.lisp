@@ -215,34 +215,44 @@ as in TRACE.  The second value is the first divergence or NIL."
   "Return the logic of Z3's engine that answers many small questions fastest."
   (if (ec:ground-numeric-p (symbolic:action-theory-ground domain)) nil "QF_UF"))
 
-(defun call-with-judge (function domain run context)
-  "Call FUNCTION with a solver that holds what the theory of DOMAIN says of the beginning of RUN,
-and with the state there.  CONTEXT is a Z3 context or NIL for a new one."
+(defun call-with-judge (function domain observed context)
+  "Call FUNCTION with a solver that holds what the theory of DOMAIN says of a beginning at which
+OBSERVED was seen, and with the state there.  CONTEXT is a Z3 context or NIL for a new one."
   (if (null context)
       (z3:with-context (context)
-        (call-with-judge function domain run context))
+        (call-with-judge function domain observed context))
       (z3:with-released-terms (context)
         (z3:with-solver (solver context :logic (judging-logic domain))
           (let ((state (free-state (symbolic:action-theory-ground domain) context
-                                   (run-initial-state run))))
+                                   observed)))
             (loop for (nil . proposition) in (ec:initial-conditions state)
                   do (z3:solver-assert solver proposition))
             (funcall function solver state))))))
 
-(defun judge-run (domain run trace &key (compare :final) (comparison :consistent) (context nil))
+(defun judged-steps (domain observed steps &key trace (comparison :consistent) context memory)
+  "Return what JUDGE-STEPS returns for STEPS, which follow the state OBSERVED.  What MEMORY, a memory
+or NIL, has of it is not asked again."
+  (flet ((ask ()
+           (call-with-judge (lambda (solver state)
+                              (judge-steps domain solver state steps trace comparison))
+                            domain observed context)))
+    (if memory
+        (let ((key (judging-key domain observed steps (and (eq comparison :exact) trace))))
+          (values-list (or (gethash key memory)
+                           (setf (gethash key memory) (multiple-value-list (ask))))))
+        (ask))))
+
+(defun judge-run (domain run trace &key (compare :final) (comparison :consistent) context memory)
   "Return the JUDGEMENT of the valid RUN, made for TRACE, by the theory of DOMAIN.  COMPARE is
 :FINAL, where a divergence that has healed by the end of the run counts as none, or :EVERY-STEP.
 COMPARISON is :CONSISTENT, where what the theory allows is no discrepancy, or :EXACT, where the
 states must be those of TRACE as long as RUN takes its steps.  CONTEXT is a Z3 context to use, or
-NIL for a new one."
-  (call-with-judge
-   (lambda (solver state)
-     (multiple-value-bind (consistent divergence)
-         (judge-steps domain solver state (run-steps run) trace comparison)
-       (make-judgement
-        :divergence divergence :comparison comparison
-        :verdict (cond ((or (not consistent) (and divergence (eq compare :every-step)))
-                        :discrepancy)
-                       ((followed-p run trace) :consistent)
-                       (t :left-trace)))))
-   domain run context))
+NIL for a new one; MEMORY, a memory or NIL, knows runs that were judged before."
+  (multiple-value-bind (consistent divergence)
+      (judged-steps domain (run-initial-state run) (run-steps run)
+                    :trace trace :comparison comparison :context context :memory memory)
+    (make-judgement
+     :divergence divergence :comparison comparison
+     :verdict (cond ((or (not consistent) (and divergence (eq compare :every-step))) :discrepancy)
+                    ((followed-p run trace) :consistent)
+                    (t :left-trace)))))

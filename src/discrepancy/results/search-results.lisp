@@ -61,7 +61,7 @@ those that shrink and explain one.")
    (seconds :initarg :seconds :reader result-seconds
             :documentation "The seconds that the whole search took.")
    (solver-seconds :initarg :solver-seconds :initform 0d0 :reader result-solver-seconds
-                   :documentation "The seconds spent in Z3, by symbolic execution and judgement.")
+                   :documentation "The seconds spent in Z3's checks, in all phases.")
    (reused :initarg :reused :initform '() :reader result-reused
            :documentation "A list of (discrepancies file text): what became of the stored ones.")
    (stopped :initarg :stopped :initform nil :reader result-stopped

@@ -148,8 +148,7 @@ SEARCH-FUNCTION returns where it has to end."
                  :simulations (search-simulations search)
                  :phases (search-phases search)
                  :seconds (search-seconds search)
-                 :solver-seconds (+ (z3:check-seconds (search-context search))
-                                    (nth-value 1 (symbolic:exploration-seconds exploration)))
+                 :solver-seconds (meter-solver-seconds (search-meter search))
                  :reused (reverse (search-reused search))
                  :stopped (search-stopped search)))
 

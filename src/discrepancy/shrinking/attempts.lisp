@@ -15,6 +15,7 @@
    (best :initarg :best :accessor shrinker-best)
    (kind :initarg :kind :reader shrinker-kind)
    (context :initarg :context :reader shrinker-context :documentation "A Z3 context.")
+   (memory :initform (make-memory) :reader shrinker-memory)
    (max-runs :initarg :max-runs :reader shrinker-max-runs)
    (deadline :initarg :deadline :reader shrinker-deadline)
    (runs :initform 0 :accessor shrinker-runs)
@@ -94,6 +95,7 @@ this time."
         (values :other nil)
         (let ((judgement (judge-run (discrepancy-domain case) run (discrepancy-trace case)
                                     :context (shrinker-context shrinker)
+                                    :memory (shrinker-memory shrinker)
                                     :compare (discrepancy-compare case)
                                     :comparison (discrepancy-comparison
                                                  (shrinker-original shrinker)))))

@@ -48,9 +48,9 @@ or, where it DIVERGES by that, the one of TRACE-STEP, the trace's step or NIL."
                              (and (= number (divergence-step divergence))
                                   (eq (divergence-kind divergence) :outcome)))))))
 
-(defun short-trace (discrepancy steps)
+(defun short-trace (discrepancy steps context)
   "Return the trace of STEPS, a list of SHORT-STEPs, from the initial state of that of DISCREPANCY,
-or NIL if the theory does not allow it."
+or NIL if the theory does not allow it.  CONTEXT is a Z3 context."
   (let* ((trace (discrepancy-trace discrepancy))
          (ground (symbolic:action-theory-ground (discrepancy-domain discrepancy)))
          (trace-steps (loop for step in steps
@@ -63,7 +63,7 @@ or NIL if the theory does not allow it."
                                      :position (recorded-action-position action))))
          (states (symbolic:states-along ground
                                         (ec:state-fluents (symbolic:trace-initial-state trace))
-                                        trace-steps)))
+                                        trace-steps :context context)))
     (when (and states
                (loop for step in steps
                      for state in states
@@ -81,7 +81,7 @@ divergence."
 (defun improve-by-steps (shrinker steps)
   "Make STEPS, SHORT-STEPs, the actions of the best case if the discrepancy stays the same; return
 true if it does."
-  (let ((trace (short-trace (shrinker-best shrinker) steps)))
+  (let ((trace (short-trace (shrinker-best shrinker) steps (shrinker-context shrinker))))
     (and trace
          (improve-with-witnesses shrinker
                                  :trace trace :actions (mapcar #'short-step-action steps)))))
@@ -97,7 +97,8 @@ true if it does."
                (improve-by-steps shrinker steps))
       (let* ((foreseen (smallest-list (butlast steps)
                                       (lambda (some)
-                                        (let ((trace (short-trace best (append some last))))
+                                        (let ((trace (short-trace best (append some last)
+                                                                  (shrinker-context shrinker))))
                                           (and trace (predicts-p trace fluents))))))
              (start (if (improve-by-steps shrinker (append foreseen last))
                         foreseen

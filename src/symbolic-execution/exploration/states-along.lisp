@@ -2,27 +2,34 @@
 
 (in-package #:discrepancy-finder.symbolic-execution)
 
+(defun path-logic (ground &optional numeric)
+  "Return the logic of Z3's engine for paths of the theory GROUND; NUMERIC if there are numbers apart
+from its fluents.  The questions are many and small: the engine for QF_UF, which keeps what it has
+learnt, is some ten times faster there than the one for QF_FD."
+  (if (or numeric (ec:ground-numeric-p ground)) nil "QF_UF"))
+
 (defun make-path-oracle (ground &key numeric timeout options signals-unknown)
   "Return an open oracle for paths of the theory GROUND; NUMERIC if there are numbers apart from its
-fluents.  Its questions are many and small: Z3's engine for QF_UF, which keeps what it has learnt,
-is some ten times faster there than the one for QF_FD.  TIMEOUT and OPTIONS are the solver's;
-SIGNALS-UNKNOWN lets SOLVER-UNKNOWN pass."
-  (let ((logic (if (or numeric (ec:ground-numeric-p ground)) nil "QF_UF")))
+fluents.  TIMEOUT and OPTIONS are the solver's; SIGNALS-UNKNOWN lets SOLVER-UNKNOWN pass."
+  (let ((logic (path-logic ground numeric)))
     (open-oracle (make-oracle
                   :signals-unknown signals-unknown
                   :make-solver (lambda (context)
                                  (z3:make-solver context :logic logic :timeout timeout
                                                          :options options))))))
 
-(defun states-along (ground fluents steps &key states)
+(defun states-along (ground fluents steps &key states context)
   "Return the concrete states of the theory GROUND along STEPS from the state in which just
 FLUENTS, a list of ground fluents, hold: the least ones, in the order of time and of the fluents,
 that the theory allows.  With STATES, a list of (true fluents, numbers), they must be these.  If the
 theory allows none return NIL and the number of the first step that it forbids, counted from 1, or 0
-if it forbids the first state."
-  (let ((oracle (make-path-oracle ground)))
-    (unwind-protect (concrete-states oracle ground fluents steps states)
-      (close-oracle oracle))))
+if it forbids the first state.  CONTEXT is a Z3 context to use, or NIL for a new one."
+  (if (null context)
+      (z3:with-context (context)
+        (states-along ground fluents steps :states states :context context))
+      (z3:with-released-terms (context)
+        (z3:with-solver (solver context :logic (path-logic ground))
+          (concrete-states (oracle-with context solver) ground fluents steps states)))))
 
 (defun assume-state (oracle state fluents numbers)
   "Assume that just FLUENTS hold in STATE and that its numbers are NUMBERS."

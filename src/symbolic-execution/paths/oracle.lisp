@@ -67,6 +67,10 @@ number, without the one of what is always true."
     (incf (oracle-epoch oracle))
     oracle))
 
+(defun oracle-with (context solver)
+  "Return an oracle that asks SOLVER, an empty one in CONTEXT; whoever made them closes them."
+  (make-oracle :context context :solver solver :entries (list (make-scope-entry nil))))
+
 (defun close-oracle (oracle)
   "Release the context of ORACLE; its figures stay."
   (let ((context (shiftf (oracle-context oracle) nil)))
