@@ -11,11 +11,16 @@
   (simulations 0 :type (integer 0))
   (seconds 0d0 :type double-float))
 
+(setf (documentation 'make-meter 'function)
+      "Return a new meter, for WITH-METER."
+      (documentation 'meter-simulations 'function)
+      "Return the number of simulations that a meter has counted.")
+
 (defvar *meter* nil
   "The METER that counts simulations, or NIL.")
 
 (defmacro with-meter ((meter) &body body)
-  "Evaluate BODY and let METER count its simulations."
+  "Evaluate BODY and let METER count its simulations, but for those that another meter counts."
   `(let ((*meter* ,meter)) ,@body))
 
 (defun count-simulation ()
