@@ -35,6 +35,8 @@
          (is (equalp object (page-json page)))
          (is (string= "discrepancies/move-the-box-1-4b1adfe8.json"
                       (json-at object "discrepancies" 0 "file")))
+         (is (string= "discrepancies/move-the-box-1-4b1adfe8-small.json"
+                      (json-at object "discrepancies" 0 "shrunk" "file")))
          (is (search "discrepancy-finder replay discrepancies/move-the-box-1-4b1adfe8.json"
                      page))))
      ;; The store's discrepancy shows again, and nothing else is looked for.
@@ -58,7 +60,12 @@
        (is (string= "" errors))
        (is (= 1 status))
        (is (search "2 of 4 steps are left" output)))
-     (multiple-value-bind (output errors status) (df-in directory "replay" "small.json")
+     ;; The search has stored the smallest case, too.
+     (is (string= (uiop:read-file-string (merge-pathnames "small.json" directory))
+                  (uiop:read-file-string
+                   (merge-pathnames "discrepancies/move-the-box-1-4b1adfe8-small.json" directory))))
+     (multiple-value-bind (output errors status)
+         (df-in directory "replay" "discrepancies/move-the-box-1-4b1adfe8-small.json")
        (is (string= "" errors))
        (is (= 1 status))
        (is (eql 0 (search "SAME BITS" output)))))))
