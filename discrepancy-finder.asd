@@ -469,7 +469,7 @@ The environment variable CXX names another compiler than g++."))
                 :serial t
                 :components ((:file "random") (:file "samplers") (:file "abstraction")
                              (:file "regions") (:file "search") (:file "judgement")
-                             (:file "explain") (:file "review")
+                             (:file "catalog") (:file "explain") (:file "review")
                              (:file "replay") (:file "search-phases") (:file "journal")
                              (:file "starts") (:file "table-top") (:file "tolerances") (:file "shrink")
                              (:file "side-by-side") (:file "edits") (:file "refinement")

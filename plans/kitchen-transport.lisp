@@ -31,7 +31,7 @@
       (perform (a motion (type looking) (pose ?place)))
       (perform (a motion (type detecting) (object (an object (type ?type))))))))
 
-(def-cram-function take-from-the-workspace (?type ?arm)
+(def-cram-function fetch-from-the-workspace (?type ?arm)
   "Stand at the workspace, find an object of ?TYPE on it, pick it up with ?ARM, step back from the
 workspace and return the object."
   (stand-at (make-pose -1.4 0.2 0 :yaw pi))
@@ -43,7 +43,7 @@ workspace and return the object."
 (def-top-level-cram-function carry-to-the-table (&optional (?type :milk) (?arm :left))
   "Pick up an object of ?TYPE from the workspace, carry it to the table and place it there."
   (perform (an action (type parking-arms)))
-  (let ((?object (take-from-the-workspace ?type ?arm))
+  (let ((?object (fetch-from-the-workspace ?type ?arm))
         (?target (make-pose 0.35 0 (height-on-the-table ?type) :yaw pi)))
     (stand-at (make-pose -0.3 -0.2 0))
     (perform (an action

@@ -35,6 +35,8 @@
          (is (equalp object (page-json page)))
          (is (string= "discrepancies/move-the-box-1-4b1adfe8.json"
                       (json-at object "discrepancies" 0 "file")))
+         (is (string= "discrepancies/move-the-box-1-4b1adfe8-small.json"
+                      (json-at object "discrepancies" 0 "shrunk" "file")))
          (is (search "discrepancy-finder replay discrepancies/move-the-box-1-4b1adfe8.json"
                      page))))
      ;; The store's discrepancy shows again, and nothing else is looked for.
@@ -58,7 +60,12 @@
        (is (string= "" errors))
        (is (= 1 status))
        (is (search "2 of 4 steps are left" output)))
-     (multiple-value-bind (output errors status) (df-in directory "replay" "small.json")
+     ;; The search has stored the smallest case, too.
+     (is (string= (uiop:read-file-string (merge-pathnames "small.json" directory))
+                  (uiop:read-file-string
+                   (merge-pathnames "discrepancies/move-the-box-1-4b1adfe8-small.json" directory))))
+     (multiple-value-bind (output errors status)
+         (df-in directory "replay" "discrepancies/move-the-box-1-4b1adfe8-small.json")
        (is (string= "" errors))
        (is (= 1 status))
        (is (eql 0 (search "SAME BITS" output)))))))
@@ -107,6 +114,16 @@ the end to /dev/full."
   (complains ("verify" "move-the-box" "--bogus") "no option --bogus")
   (complains ("explain" "--bogus" "3" "no.json") "no option --bogus"))
 
+(test names-are-those-of-the-catalog
+  (multiple-value-bind (output errors status)
+      (df-command "explore" "bowl-and-spoon-closing" "--domain" "bowl-and-spoon-closing"
+                  "--constraint" "successful-grasping")
+    (is (string= "" errors))
+    (is (= 0 status))
+    (is (search "bowl-and-spoon-closing" output)))
+  (complains ("explore" "move-the-box" "--domain" "nowhere") "nowhere" "two-regions-minimal")
+  (complains ("explore" "no-such-plan" "--domain" "kitchen") "no-such-plan" "move-the-box"))
+
 (test every-subcommand-has-help
   (let ((output (df-command "--help")))
     (dolist (name '("demo" "find" "explore" "verify" "simulate" "replay" "explain" "shrink"
@@ -138,6 +155,22 @@ the end to /dev/full."
       ;; With standard error elsewhere nothing of it is seen.
       (is (not (search (format nil "~c[K" #\Escape)
                        (output (format nil "~a 2>&1 | cat" command))))))))
+
+(test what-is-no-search-tells-what-it-does
+  "A plan file that takes its time to load makes a command that is sure to run for seconds."
+  (with-file (file "(cl:sleep 1.5) (def-top-level-cram-function slow () nil)")
+    (flet ((output (plan streams)
+             (run-command (list "script" "-qec"
+                                (format nil "~a explore ~a --domain two-regions ~a"
+                                        (executable) plan streams)
+                                "/dev/null")
+                          :directory "/tmp" :environment '("TERM=xterm"))))
+      (let ((shown (output file "")))
+        (is (search "exploring the plan, 1 s" shown))
+        (is (search (format nil "~c[K" #\Escape) shown))
+        (is (search "EXPLORATION of slow" shown)))
+      (is (not (search "exploring the plan" (output "move-the-box" ""))))
+      (is (not (search (format nil "~c[K" #\Escape) (output file "2>&1 | cat")))))))
 
 (defun lines-in (file)
   (if (uiop:file-exists-p file)

@@ -10,7 +10,6 @@
   (flet ((row (title reach found)
            (discrepancy-finder::make-paper-search
             :title title :plan 'discrepancy-finder-user::move-the-box
-            :plan-file "plans/move-the-box.lisp"
             :domain (discrepancy:domain-with-parameters
                      (discrepancy:ensure-domain :two-regions) (list :reach reach))
             :constraint :box-delivered :iterations 1 :simulations 5 :seconds 10 :found found)))

@@ -26,6 +26,7 @@ search, replay.")
    #:initial-parameters #:final-parameters #:draw-sample
    #:sample #:sample-index #:sample-values #:sample-text #:sample-tolerances
    ;; runs and their judgement
+   #:make-meter #:with-meter #:meter-simulations
    #:execute-sample #:run-plan #:run #:run-steps #:run-initial-state #:run-final-state #:run-hash
    #:run-seconds #:run-validity #:run-tolerances #:run-final-values #:run-ending
    #:run-step #:run-step-designator #:run-step-outcome #:run-step-state

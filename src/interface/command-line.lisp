@@ -198,7 +198,7 @@ top-level plans, a name; or a name."
 (defun interrupted (condition)
   "End the process after C-c, without unwinding: no cleanup form of a plan has a say."
   (declare (ignore condition))
-  (format *error-output* "interrupted~%")
+  (format *error-output* "~&interrupted~%")
   (finish-output *error-output*)
   (leave 130))
 

@@ -25,18 +25,21 @@
          (*query-io* (if step
                          (make-two-way-stream *standard-input* *standard-output*)
                          *query-io*))
-         (result (replay (file-argument arguments "replay") :step (and step t))))
+         (file (file-argument arguments "replay"))
+         (result (if step
+                     (replay file :step t)
+                     (telling ("replaying") (replay file)))))
     (write-string (replay-text result :steps (not step)))
     (verdict-code result)))
 
 (defun call-with-replayed (function arguments command)
-  "Replay the file that ARGUMENTS name.  If the discrepancy shows again call FUNCTION with it, else
-print the replay.  Return the exit status."
-  (let* ((result (replay (file-argument arguments command)))
+  "Replay the file that ARGUMENTS name.  If the discrepancy shows again, call FUNCTION with it and
+print the text that it returns, else the replay.  Return the exit status."
+  (let* ((result (telling ("replaying") (replay (file-argument arguments command))))
          (discrepancy (discrepancy:replay-discrepancy result)))
-    (if discrepancy
-        (funcall function discrepancy)
-        (write-string (replay-text result)))
+    (write-string (if discrepancy
+                      (funcall function discrepancy)
+                      (replay-text result)))
     (verdict-code result)))
 
 (define-subcommand "explain" (arguments options)
@@ -45,10 +48,11 @@ print the replay.  Return the exit status."
      (("runs") :type integer :documentation "largest number of simulations (30)"))
   (call-with-replayed
    (lambda (discrepancy)
-     (write-string (discrepancy-text discrepancy :command (command-name)))
-     (write-string (discrepancy:explanation-text
-                    (discrepancy:explain-discrepancy discrepancy
-                                                     :max-runs (or (getf options :runs) 30)))))
+     (let ((explanation (telling ("explaining")
+                          (discrepancy:explain-discrepancy
+                           discrepancy :max-runs (or (getf options :runs) 30)))))
+       (concatenate 'string (discrepancy-text discrepancy :command (command-name))
+                    (discrepancy:explanation-text explanation))))
    arguments "explain"))
 
 (define-subcommand "shrink" (arguments options)
@@ -59,15 +63,16 @@ print the replay.  Return the exit status."
      (("save") :type string :documentation "file for the smallest case"))
   (call-with-replayed
    (lambda (discrepancy)
-     (let ((shrinking (discrepancy:shrink-discrepancy
-                       discrepancy
-                       :max-runs (or (getf options :runs) 300)
-                       :max-seconds (if (getf options :seconds)
-                                        (number-argument (getf options :seconds) "--seconds")
-                                        60))))
+     (let* ((seconds (if (getf options :seconds)
+                         (number-argument (getf options :seconds) "--seconds")
+                         60))
+            (shrinking (telling ("shrinking")
+                         (discrepancy:shrink-discrepancy discrepancy
+                                                         :max-runs (or (getf options :runs) 300)
+                                                         :max-seconds seconds))))
        (when (getf options :save)
          (save-discrepancy (discrepancy:shrinking-discrepancy shrinking) (getf options :save)))
-       (write-string (discrepancy:shrinking-text shrinking :command (command-name)))))
+       (discrepancy:shrinking-text shrinking :command (command-name))))
    arguments "shrink"))
 
 (define-subcommand "refine" (arguments options)
@@ -82,15 +87,19 @@ print the replay.  Return the exit status."
   (let* ((plans (or (loop for argument in arguments collect (plan-argument (list argument)))
                     (usage-problem "A plan is missing.")))
          (domain (domain-argument options))
-         (refinement (apply #'refine-theory plans
-                            :domain domain
-                            :parameters (parameter-arguments (getf options :set))
-                            (append (loop for key in '(:edits :seed)
-                                          when (getf options key)
-                                            append (list key (getf options key)))
-                                    (and (getf options :constraint)
-                                         (list :constraint
-                                               (keyword-argument (getf options :constraint))))))))
+         (edits 0)
+         (arguments (append (loop for key in '(:edits :seed)
+                                  when (getf options key)
+                                    append (list key (getf options key)))
+                            (and (getf options :constraint)
+                                 (list :constraint
+                                       (keyword-argument (getf options :constraint))))))
+         (refinement (telling ((lambda () (format nil "refining, ~d edit~:p" edits)))
+                       (apply #'refine-theory plans
+                              :domain domain
+                              :parameters (parameter-arguments (getf options :set))
+                              :progress (lambda (step) (declare (ignore step)) (incf edits))
+                              arguments))))
     (write-string (discrepancy:refinement-text refinement))
     (ecase (discrepancy:refinement-status refinement)
       (:refined 0)

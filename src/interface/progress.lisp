@@ -1,9 +1,10 @@
-;;;; Progress: what a search is doing, in one line on a terminal.
+;;;; Progress: what a command is doing, in one line on a terminal.
 ;;;;
 ;;;; The line is on standard error, is written over again and again, and is gone at the end.  Where
-;;;; standard error is no terminal nothing is written.  CALL-WITH-PROGRESS is the entry point; while
-;;;; it runs, C-c and SIGTERM let the search end after the simulation it is at, with what it has
-;;;; found; the second time they end the process.
+;;;; standard error is no terminal nothing is written.  CALL-WITH-PROGRESS is for a search, which
+;;;; tells how far it is; while it runs, C-c and SIGTERM let it end after the simulation it is at,
+;;;; with what it has found; the second time they end the process.  TELLING is for all else: a
+;;;; thread of its own writes the line.
 
 (in-package #:discrepancy-finder)
 
@@ -77,3 +78,31 @@ signals are taken as above."
     (unwind-protect (call-stopping-on-signals (lambda () (funcall function progress)))
       (when progress
         (clear-progress *error-output*)))))
+
+;;; What is no search
+
+(defun call-telling (what function)
+  "Call FUNCTION and return its values.  On a terminal, from the first second on, a line tells WHAT
+is being done, a string or a function that returns one, with how many simulations and how long."
+  (let ((stream *error-output*) (start (foreign:monotonic-seconds))
+        (meter (discrepancy:make-meter)) (done (sb-thread:make-semaphore)))
+    (flet ((tell ()
+             (loop until (sb-thread:wait-on-semaphore done :timeout 1)
+                   for simulations = (discrepancy:meter-simulations meter)
+                   do (write-progress
+                       (format nil "~a~@[, ~d simulation~:p~], ~d s"
+                               (if (functionp what) (funcall what) what)
+                               (and (plusp simulations) simulations)
+                               (floor (- (foreign:monotonic-seconds) start)))
+                       stream))))
+      (if (terminal-p stream)
+          (let ((teller (sb-thread:make-thread #'tell :name "progress")))
+            (unwind-protect (discrepancy:with-meter (meter) (funcall function))
+              (sb-thread:signal-semaphore done)
+              (sb-thread:join-thread teller)
+              (clear-progress stream)))
+          (funcall function)))))
+
+(defmacro telling ((what) &body body)
+  "Evaluate BODY while a line on a terminal tells WHAT is being done."
+  `(call-telling ,what (lambda () ,@body)))

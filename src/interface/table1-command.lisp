@@ -2,11 +2,9 @@
 
 (in-package #:discrepancy-finder)
 
-(defun print-table1-progress (row seed)
-  "Tell on standard error, if that is a terminal, which search begins."
-  (when (interactive-stream-p *error-output*)
-    (format *error-output* "~a, rule ~(~a~), seed ~d~%"
-            (paper-search-title (table1-row-search row)) (table1-row-rule row) seed)))
+(defun table1-progress-text (row seed)
+  (format nil "~a, rule ~(~a~), seed ~d" (paper-search-title (table1-row-search row))
+          (table1-row-rule row) seed))
 
 (define-subcommand "table1" (arguments options)
     ("[--seed N] [--seeds N] [--brute-force]"
@@ -18,6 +16,12 @@
       :documentation "simulate from random initial states as well, for comparison"))
   (when arguments
     (usage-problem "table1 takes options only."))
-  (table1 :seed (or (getf options :seed) 1) :seeds (or (getf options :seeds) 1)
-          :brute-force (getf options :brute-force) :progress #'print-table1-progress)
+  (let ((search ""))
+    (write-string
+     (with-output-to-string (stream)
+       (telling ((lambda () search))
+         (table1 :seed (or (getf options :seed) 1) :seeds (or (getf options :seeds) 1)
+                 :brute-force (getf options :brute-force) :stream stream
+                 :progress (lambda (row seed)
+                             (setf search (table1-progress-text row seed))))))))
   0)

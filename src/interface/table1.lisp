@@ -14,9 +14,7 @@
 SECONDS for FOUND."
   (title "" :type string :read-only t)
   (plan nil :type symbol :read-only t)
-  (plan-file "" :type string :read-only t)
   (domain nil :read-only t)
-  (domain-file "" :type string :read-only t)
   (constraint nil :type keyword :read-only t)
   (iterations 0 :type (integer 0) :read-only t)
   (simulations 0 :type (integer 0) :read-only t)
@@ -26,29 +24,24 @@ SECONDS for FOUND."
 (defparameter *table1*
   (list (make-paper-search
          :title "setting the table" :plan 'discrepancy-finder-user::setting-the-table
-         :plan-file "plans/setting-the-table.lisp"
-         :domain :kitchen :domain-file "models/kitchen/domain.lisp"
+         :domain :kitchen
          :constraint :successful-navigation
          :iterations 1 :simulations 12 :seconds 273 :found "object lost in navigation")
         (make-paper-search
          :title "bowl and spoon" :plan 'discrepancy-finder-user::bowl-and-spoon
-         :plan-file "plans/bowl-and-spoon.lisp"
-         :domain :bowl-and-spoon :domain-file "models/kitchen/bowl-and-spoon.lisp"
+         :domain :bowl-and-spoon
          :constraint :successful-navigation
          :iterations 2 :simulations 11 :seconds 197 :found "open drawer blocks the way")
         (make-paper-search
          :title "looking into drawers" :plan 'discrepancy-finder-user::looking-into-drawers
-         :plan-file "plans/looking-into-drawers.lisp"
-         :domain :kitchen-drawers :domain-file "models/kitchen/drawers.lisp"
+         :domain :kitchen-drawers
          :constraint :successful-grasping
          :iterations 1 :simulations 1 :seconds 22
          :found "discretization too coarse for sight and reach")
         (make-paper-search
          :title "bowl and spoon, modified"
          :plan 'discrepancy-finder-user::bowl-and-spoon-closing
-         :plan-file "plans/bowl-and-spoon.lisp"
          :domain :bowl-and-spoon-closing
-         :domain-file "models/kitchen/bowl-and-spoon-closing.lisp"
          :constraint :successful-navigation
          :iterations 3 :simulations 20 :seconds 289 :found "nothing"))
   "The rows of Table I.")
@@ -58,14 +51,10 @@ SECONDS for FOUND."
 
 ;;; Running a search
 
-(defun ensure-paper-domain (search)
-  (discrepancy:ensure-domain (paper-search-domain search) (paper-search-domain-file search)))
-
 (defun run-paper-search (search rule seed)
   "Return the SEARCH-RESULT of SEARCH, by the confidence rule named RULE with SEED."
-  (discrepancy:ensure-plan (paper-search-plan search) (paper-search-plan-file search))
   (find-discrepancies (paper-search-plan search)
-                      :domain (ensure-paper-domain search)
+                      :domain (paper-search-domain search)
                       :constraint (paper-search-constraint search)
                       :confidence *table1-confidence* :rule rule :seed seed :budget 10000
                       :shrink nil :explain nil))
@@ -90,7 +79,7 @@ confirms it."
 nothing."
   (when (result-discrepancy result)
     (discrepancy:simulate-blindly (paper-search-plan search)
-                                  :domain (ensure-paper-domain search) :seed seed
+                                  :domain (paper-search-domain search) :seed seed
                                   :kinds (list (discrepancy:discrepancy-kind
                                                 (result-discrepancy result))))))
 

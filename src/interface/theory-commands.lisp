@@ -31,7 +31,8 @@ Event Calculus Reasoner, others hold define-theory."
   (let* ((theory (theory-file-argument arguments "reason"))
          (limit (if (getf options :all) nil 10)))
     (multiple-value-bind (models complete)
-        (ec:models theory :limit limit :horizon (horizon-option theory options))
+        (telling ("looking for models")
+          (ec:models theory :limit limit :horizon (horizon-option theory options)))
       (ec:print-e-models models *standard-output*)
       (unless complete
         (format *error-output* "There are more models; --all prints them.~%"))))
@@ -43,6 +44,7 @@ Event Calculus Reasoner, others hold define-theory."
      (("horizon") :type integer
       :documentation "last timepoint (the theory's own, or 3, or 8 if there are warnings at 3)"))
   (let* ((theory (theory-file-argument arguments "check-theory"))
-         (findings (ec:check-theory theory :horizon (getf options :horizon))))
+         (findings (telling ("checking the theory")
+                     (ec:check-theory theory :horizon (getf options :horizon)))))
     (format t "~{~a~%~}~d finding~:p in ~a~%" findings (length findings) (ec:counts-text theory))
     (if (find :note findings :key #'ec:finding-severity :test-not #'eq) 1 0)))

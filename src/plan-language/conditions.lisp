@@ -9,16 +9,19 @@
 
 (define-condition plan-not-found (plan-error)
   ((name :initarg :name :reader plan-not-found-name
-         :documentation "The name for which there is no plan."))
+         :documentation "The name for which there is no plan.")
+   (known :initarg :known :initform '() :reader plan-not-found-known
+          :documentation "The names, strings, of the plans that files in plans/ define, or NIL."))
   (:report (lambda (condition stream)
              (let ((name (plan-not-found-name condition)))
-               (format stream (if (and (symbolp name) (fboundp name))
-                                  "The function ~(~a~) is no plan with a source: such a one is ~
+               (if (and (symbolp name) (fboundp name))
+                   (format stream "The function ~(~a~) is no plan with a source: such a one is ~
                                    defined by def-top-level-cram-function or def-cram-function, ~
-                                   outside of other forms."
-                                  "There is no plan named ~(~a~); it would be defined by ~
-                                   def-top-level-cram-function or def-cram-function.")
-                       name))))
+                                   outside of other forms." name)
+                   (format stream "There is no plan named ~(~a~); it would be defined by ~
+                                   def-top-level-cram-function or def-cram-function~@[, and the ~
+                                   files in plans/ define ~{~a~^, ~}~]."
+                           name (plan-not-found-known condition))))))
   (:documentation "Signaled when a plan is asked for that was never defined."))
 
 (defun short-form (form)

@@ -83,6 +83,10 @@ record their sources and definitions of packages see global names of packages on
 
 ;;; Systems
 
+(defvar *plan-locator* (constantly nil)
+  "A function of a symbol that returns the name of the file that defines the plan of this name, or
+NIL.")
+
 (defun system-error (name reason)
   (error 'source:source-error :file name :reason reason))
 
@@ -117,10 +121,9 @@ system or file NAME."
         (system-error name (format nil "it defines no system named ~a" (pathname-name path))))))
 
 (defun named-system (name)
-  "Return the ASDF system with the name of the symbol NAME."
+  "Return the ASDF system with the name of the symbol NAME, or NIL."
   (let ((name (asdf:coerce-name name)))
-    (or (call-explaining-asdf name (lambda () (asdf:find-system name nil)))
-        (system-error name "ASDF finds no system of this name"))))
+    (call-explaining-asdf name (lambda () (asdf:find-system name nil)))))
 
 (defun component-files (component name)
   "Return a list of the Lisp file that COMPONENT, of the system NAME, is; none if it is none."
@@ -151,13 +154,24 @@ system or file NAME."
                        name
                        '#:common-lisp-user)))
 
+(defun load-named (name)
+  "Load the ASDF system NAME, a symbol, or the file that defines the plan of this name."
+  (let* ((system (named-system name))
+         (file (and (null system) (funcall *plan-locator* name))))
+    (cond (system (load-system system))
+          (file (load-plan file))
+          (t (system-error (asdf:coerce-name name)
+                           (format nil "ASDF finds no system of this name, and no file in plans/ ~
+                                        defines a plan of this name"))))))
+
 (defun load-plan (source)
   "Load plans and return the list of the PLANs that are defined, in their order, those that were
 defined before included.  SOURCE is a file of plan definitions, read in the package
 DISCREPANCY-FINDER-USER unless it says otherwise; or an .asd file; or a symbol, the name of an ASDF
-system.  Of a system, the Lisp files are loaded in their order, after what it depends on.  Signals
-SOURCE-ERROR, which names file and line, if something cannot be read or loaded."
-  (cond ((symbolp source) (load-system (named-system source)))
+system, or else of a plan that a file in plans/ defines.  Of a system, the Lisp files are loaded in
+their order, after what it depends on.  Signals SOURCE-ERROR, which names file and line, if
+something cannot be read or loaded."
+  (cond ((symbolp source) (load-named source))
         ((equalp (pathname-type (source:native-path source)) "asd")
          (load-system (defined-system source)))
         (t (load-plan-sources (list source) (source:native-name source)

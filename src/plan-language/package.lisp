@@ -19,7 +19,8 @@ perform.")
    #:def-cram-function #:def-top-level-cram-function #:def-plan
    #:plan #:plan-name #:plan-lambda-list #:plan-body #:plan-documentation #:plan-position
    #:plan-top-level-p #:find-plan #:current-plan-name #:plan-source #:plans-in-files
-   #:method-source #:load-plan #:*closure-evaluator* #:ensure-top-level #:call-in-implicit-top-level
+   #:method-source #:load-plan #:*closure-evaluator* #:*plan-locator*
+   #:ensure-top-level #:call-in-implicit-top-level
    ;; goals
    #:declare-goal #:def-goal #:succeed #:register-goal #:describe-goal
    ;; top-levels
@@ -125,7 +126,7 @@ perform.")
    #:container-state #:robot-loc
    ;; conditions
    #:plan-error #:nested-top-level #:not-in-top-level #:not-in-top-level-form
-   #:plan-not-found #:plan-not-found-name
+   #:plan-not-found #:plan-not-found-name #:plan-not-found-known
    #:designator-not-understood #:designator-not-understood-designator
    #:malformed-plan-form #:malformed-plan-form-form #:malformed-plan-form-expected
    #:malformed-plan-form-plan

@@ -98,9 +98,13 @@ symbolic execution, unless :FILE-OUTPUT allows it."))
   (:documentation "Signaled when a symbolic argument of a plan has a type that is none."))
 
 (define-condition domain-not-found (symbolic-execution-error)
-  ((name :initarg :name :reader domain-not-found-name :documentation "The name in question."))
+  ((name :initarg :name :reader domain-not-found-name :documentation "The name in question.")
+   (known :initarg :known :initform '() :reader domain-not-found-known
+          :documentation "The names, strings, of the domains that files in models/ define, or NIL."))
   (:report (lambda (condition stream)
-             (format stream "There is no domain named ~(~a~)." (domain-not-found-name condition))))
+             (format stream "There is no domain named ~(~a~)~@[; it would be defined by ~
+                             define-abstraction, and the files in models/ define ~{~a~^, ~}~]."
+                     (domain-not-found-name condition) (domain-not-found-known condition))))
   (:documentation "Signaled when a domain is asked for that was never defined."))
 
 (define-condition coverage-not-recorded (symbolic-execution-error)

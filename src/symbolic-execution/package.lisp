@@ -55,7 +55,8 @@
    #:exploration-grounds #:trace-grounds
    ;; conditions
    #:symbolic-execution-error #:unsupported-form #:nondeterministic-plan
-   #:action-problem #:domain-not-found #:invalid-trace #:invalid-trace-reason
+   #:action-problem #:domain-not-found #:domain-not-found-known
+   #:invalid-trace #:invalid-trace-reason
    #:file-output-refused #:file-output-refused-file #:file-output-refused-plan
    #:unknown-argument-type #:unknown-argument-type-parameter #:unknown-argument-type-type
    #:unknown-argument-type-sorts

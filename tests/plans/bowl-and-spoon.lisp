@@ -9,14 +9,9 @@
 (defparameter *leaving-open* 'discrepancy-finder-user::bowl-and-spoon)
 (defparameter *closing* 'discrepancy-finder-user::bowl-and-spoon-closing)
 
-(defvar *bowl-and-spoon* nil)
-
 (defun bowl-and-spoon (name)
   "Return the domain NAME, :bowl-and-spoon or :bowl-and-spoon-closing; load its plans, too."
-  (unless *bowl-and-spoon*
-    (plan:load-plan (root-file "plans/bowl-and-spoon.lisp"))
-    (setf *bowl-and-spoon* (discrepancy:load-domain
-                            (root-file "models/kitchen/bowl-and-spoon-closing.lisp"))))
+  (discrepancy:ensure-plan *closing*)
   (discrepancy:ensure-domain name))
 
 (defun bowl-and-spoon-exploration (plan domain)

@@ -10,8 +10,7 @@
 
 (defun drawers-exploration ()
   "Return the domain of the plan that looks into drawers, and its exploration."
-  (let ((domain (discrepancy:ensure-domain :kitchen-drawers
-                                           (root-file "models/kitchen/drawers.lisp"))))
+  (let ((domain (discrepancy:ensure-domain :kitchen-drawers)))
     (values domain
             (or *drawers-exploration*
                 (setf *drawers-exploration*

@@ -41,7 +41,7 @@ arrive, :lost, or :carried."
     (with-kitchen (projection :poses (carry-poses subject index)
                               :parameters (drawn-tolerances subject index))
       (flet ((held-p () (member item (projection:held-items projection) :key #'cdr)))
-        (let ((lifted (outcome (funcall 'discrepancy-finder-user::take-from-the-workspace
+        (let ((lifted (outcome (funcall 'discrepancy-finder-user::fetch-from-the-workspace
                                          item :left))))
           (if (not (and (eq lifted :done) (held-p)))
               (values :not-lifted lifted)

@@ -133,12 +133,10 @@ document.getElementById('seen').textContent = JSON.stringify(seen);
 (test a-browser-shows-a-long-trace-in-the-kitchen
   "The page of a plan of many steps and items fits into a narrow window."
   (when *browser*
-    (let* ((plan (discrepancy:ensure-plan 'discrepancy-finder-user::looking-into-drawers
-                                          (root-file "plans/looking-into-drawers.lisp")))
+    (let* ((plan (discrepancy:ensure-plan 'discrepancy-finder-user::looking-into-drawers))
            (result (df:find-discrepancies
                     (plan:plan-name plan)
-                    :domain (discrepancy:ensure-domain
-                             :kitchen-drawers (root-file "models/kitchen/drawers.lisp"))
+                    :domain :kitchen-drawers
                     :constraint :successful-grasping :explain t))
            (found (json-at (json-of result) "discrepancies" 0))
            (page (report-page result)))

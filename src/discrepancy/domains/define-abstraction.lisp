@@ -158,9 +158,11 @@ are added by DEFINE-ACTION.  Signals ABSTRACTION-ERROR, THEORY-ERROR, SCENE-ERRO
 
 (defun load-domain (file)
   "Load FILE, which defines a domain with DEFINE-ABSTRACTION and DEFINE-ACTION in the package
-DISCREPANCY-FINDER-USER, and return the domain.  Signals SOURCE-ERROR, which names file and line,
-and what DEFINE-ABSTRACTION signals."
-  (let ((before (symbolic:all-action-theories)))
+DISCREPANCY-FINDER-USER, and return the domain; a symbol means the file of the catalog that defines
+the domain of this name.  Signals SOURCE-ERROR, which names file and line, DOMAIN-NOT-FOUND, and
+what DEFINE-ABSTRACTION signals."
+  (let ((file (if (symbolp file) (domain-file-named file) file))
+        (before (symbolic:all-action-theories)))
     (source:load-source file :package '#:discrepancy-finder-user)
     (let ((new (set-difference (symbolic:all-action-theories) before)))
       ;; What the file extends may be new, too.

@@ -14,11 +14,17 @@ inside of Z3's checks."
   (seconds 0d0 :type double-float)
   (solver-seconds 0d0 :type double-float))
 
+(setf (documentation 'make-meter 'function)
+      "Return a new meter, for WITH-METER."
+      (documentation 'meter-simulations 'function)
+      "Return the number of simulations that a meter has counted.")
+
 (defvar *meter* nil
   "The METER that counts simulations, or NIL.")
 
 (defmacro with-meter ((meter) &body body)
-  "Evaluate BODY and let METER count its simulations and the time of its checks."
+  "Evaluate BODY and let METER count its simulations and the time of its checks, but for what another
+meter counts."
   `(let ((*meter* ,meter) (z3:*on-check* #'count-check))
      ,@body))
 

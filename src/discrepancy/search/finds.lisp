@@ -42,7 +42,7 @@ the journal is replaced by the second one."
     (setf (discrepancy-explanation discrepancy)
           (in-phase (search :explain)
             (apply #'explain-discrepancy discrepancy (remaining-time search)))))
-  (when (and (search-store search) (not (discrepancy-file discrepancy)))
+  (when (search-store search)
     (in-phase (search :store) (store-discrepancy discrepancy (search-store search)))))
 
 (defun offer-choices (discrepancy)

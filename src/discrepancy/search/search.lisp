@@ -171,13 +171,15 @@ SEARCH-FUNCTION returns where it has to end."
   (check-argument 'parameters parameters (alexandria:proper-list-p parameters) "a property list")
   (check-argument 'rule rule (symbolp rule) "the name of a confidence rule"))
 
-(defun check-search-arguments (&key seed sampler targets rule budget seconds execution compare
-                                 comparison on-discrepancy keep-going store traces)
+(defun check-search-arguments (&key seed sampler targets rule delta budget seconds execution
+                                 compare comparison on-discrepancy keep-going store traces)
   (check-argument 'seed seed (typep seed '(unsigned-byte 64)) "an integer from 0 to 2^64 - 1")
   (check-argument 'sampler sampler (member sampler *samplers*)
                   ":independent, :stratified, :sobol or :corners")
   (check-argument 'targets targets (or (not targets) (not (member rule '(:paper :paper-sd))))
                   "nil, since the rule wants independent samples alone,")
+  (check-argument 'delta delta (or (null delta) (member rule '(:zero-failure :sound)))
+                  (format nil "nil, since the rule ~(~a~) takes none," rule))
   (check-argument 'budget budget (typep budget '(integer 1)) "a positive integer")
   (check-argument 'seconds seconds (typep seconds '(or null (real (0)))) "a positive number or nil")
   (check-argument 'keep-going keep-going (typep keep-going '(or boolean (integer 1)))
@@ -206,8 +208,8 @@ return a SEARCH-RESULT.
                   theory's only one
   CONFIDENCE      in ]0, 1[, for the confidence RULE: :PAPER, :PAPER-SD, :PREDICTION,
                   :ZERO-FAILURE or :SOUND
-  DELTA           in ]0, 1[, for the last two: the part of a trace's initial region that may be
-                  discrepant all the same; NIL: 0.05
+  DELTA           in ]0, 1[, for the last two only: the part of a trace's initial region that may
+                  be discrepant all the same; NIL: 0.05
   SEED, SAMPLER   the samples are a function of these; :INDEPENDENT, :STRATIFIED, :SOBOL or
                   :CORNERS; guarantees count draws of the first two
   TARGETS         true: every second sample lies where the earlier ones predict the worst; these
@@ -244,8 +246,8 @@ UNKNOWN-CONFIDENCE-RULE, INVALID-CONFIDENCE, INVALID-DELTA, UNKNOWN-PARAMETER, J
   (let* ((rule (ec:name-keyword rule))
          (rule-object (apply #'make-confidence-rule rule
                              :confidence confidence (and delta (list :delta delta)))))
-    (check-search-arguments :seed seed :sampler sampler :targets targets :rule rule :budget budget
-                            :seconds seconds :execution execution :compare compare
+    (check-search-arguments :seed seed :sampler sampler :targets targets :rule rule :delta delta
+                            :budget budget :seconds seconds :execution execution :compare compare
                             :comparison comparison :on-discrepancy on-discrepancy
                             :keep-going keep-going :store store :traces traces)
     (let* ((plan (ensure-plan plan))

@@ -3,9 +3,12 @@
 ;;;;
 ;;;; A stored discrepancy is tried if it is one of the same plan, domain, state constraint and scene
 ;;;; parameters.  It is run in the domain of the search, as that is now, from the sample in the
-;;;; file: what theory, scene or plan have changed since has its say.
+;;;; file: what theory, scene or plan have changed since has its say.  The smallest case of one stands
+;;;; beside it, for replay; it is not tried, since the original is.
 
 (in-package #:discrepancy-finder.discrepancy)
+
+(declaim (ftype function shrinking-discrepancy))
 
 (defun store-file (discrepancy folder)
   "Return the name of a file in FOLDER for DISCREPANCY: made of plan, seed and state hash."
@@ -15,21 +18,41 @@
           (discrepancy-seed discrepancy)
           (subseq (hash-text (run-hash (discrepancy-run discrepancy))) 0 8)))
 
+(defparameter *small-suffix* "-small.json"
+  "How the name of the file of a smallest case ends.")
+
+(defun small-file (file)
+  "Return the name of the file for the smallest case of the discrepancy in FILE."
+  (concatenate 'string (if (uiop:string-suffix-p file ".json")
+                           (subseq file 0 (- (length file) (length ".json")))
+                           file)
+               *small-suffix*))
+
+(defun store-in-file (discrepancy file)
+  (handler-case (progn (ensure-directories-exist (source:native-path file))
+                       (save-discrepancy discrepancy file))
+    ((or replay-error file-error) (condition)
+      (warn "~a is not stored: ~a" file (source:condition-sentence condition)))))
+
 (defun store-discrepancy (discrepancy folder)
-  "Write DISCREPANCY to a file in FOLDER, which is made if need be, and return its name.  Where that
-cannot be done there is a warning: what was found is worth more than the file."
-  (let ((file (store-file discrepancy folder)))
-    (handler-case (progn (ensure-directories-exist (source:native-path file))
-                         (save-discrepancy discrepancy file))
-      ((or replay-error file-error) (condition)
-        (warn "~a is not stored: ~a" file (source:condition-sentence condition))))))
+  "Write DISCREPANCY to a file in FOLDER, which is made if need be, unless it has a file; and its
+smallest case, if it was shrunk, to another one beside that.  Where that cannot be done there is a
+warning: what was found is worth more than the file."
+  (unless (discrepancy-file discrepancy)
+    (store-in-file discrepancy (store-file discrepancy folder)))
+  (let ((small (and (discrepancy-file discrepancy) (discrepancy-shrunk discrepancy)
+                    (shrinking-discrepancy (discrepancy-shrunk discrepancy)))))
+    (when (and small (not (eq small discrepancy)))
+      (store-in-file small (small-file (discrepancy-file discrepancy))))))
 
 (defun stored-files (folder)
-  "Return the names of the replay files in FOLDER, in the order of the alphabet."
-  (sort (mapcar #'source:native-name
-                (uiop:directory-files (uiop:ensure-directory-pathname
-                                       (source:native-path folder))
-                                      "*.json"))
+  "Return the names of the replay files in FOLDER, but for those of smallest cases, in the order of
+the alphabet."
+  (sort (loop for path in (uiop:directory-files (uiop:ensure-directory-pathname
+                                                 (source:native-path folder))
+                                                "*.json")
+              for file = (source:native-name path)
+              unless (uiop:string-suffix-p file *small-suffix*) collect file)
         #'string<))
 
 (defun stored-object (file)
@@ -51,7 +74,7 @@ cannot be done there is a warning: what was found is worth more than the file."
            (let ((part (json:get-key object key nil)))
              (and (listp part) (json:get-key part "name" nil)))))
     (and object
-         ;; One that was shrunk has actions; its original is here, too.
+         ;; A smallest case that a user has stored here has actions and is no run of the plan.
          (zerop (length (json:get-key object "actions" '())))
          (equal (name "plan") (ec:name-text (plan:plan-name (search-plan search))))
          (equal (name "domain")

@@ -125,11 +125,13 @@ the nearest sample that passes.  COMMAND is as for DISCREPANCY-TEXT."
       (write-string (discrepancy-text discrepancy :command command) stream))))
 
 (defun shrinking-json (shrinking)
-  "Return the JSON object of SHRINKING: the smaller discrepancy, as in its replay file, how many of
-the steps are left, the values that matter, the boundary or null, and what it took."
+  "Return the JSON object of SHRINKING: the smaller discrepancy, as in its replay file, the name of
+that or null, how many of the steps are left, the values that matter, the boundary or null, and what
+it took."
   (let ((boundary (shrinking-boundary shrinking)))
     (json:object
      "discrepancy" (discrepancy-json (shrinking-discrepancy shrinking))
+     "file" (json-or-null (discrepancy-file (shrinking-discrepancy shrinking)))
      "steps" (vector (step-count (shrinking-original shrinking))
                      (step-count (shrinking-discrepancy shrinking)))
      "left-out" (map 'vector #'ec:name-text
