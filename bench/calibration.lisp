@@ -79,7 +79,7 @@ mixes them, :GOAL drives to a fixed place wherever it began."
                      (cons low (+ low side))))
          bounds)))
 
-(defstruct cell
+(defstruct (cell (:predicate nil))
   "What is simulated: KIND of map, JUMP-P or tail, N parameters, probability P, the MARGIN of the
 bounds; with TARGETS or without, a number of TRACES, the CONFIDENCE asked for."
   kind jump-p n p margin targets traces confidence)

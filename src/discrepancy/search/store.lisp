@@ -8,7 +8,7 @@
 
 (in-package #:discrepancy-finder.discrepancy)
 
-(declaim (ftype function shrinking-discrepancy))
+(declaim (ftype function smallest-case))
 
 (defun store-file (discrepancy folder)
   "Return the name of a file in FOLDER for DISCREPANCY: made of plan, seed and state hash."
@@ -40,9 +40,8 @@ smallest case, if it was shrunk, to another one beside that.  Where that cannot 
 warning: what was found is worth more than the file."
   (unless (discrepancy-file discrepancy)
     (store-in-file discrepancy (store-file discrepancy folder)))
-  (let ((small (and (discrepancy-file discrepancy) (discrepancy-shrunk discrepancy)
-                    (shrinking-discrepancy (discrepancy-shrunk discrepancy)))))
-    (when (and small (not (eq small discrepancy)))
+  (let ((small (smallest-case discrepancy)))
+    (when (and small (discrepancy-file discrepancy))
       (store-in-file small (small-file (discrepancy-file discrepancy))))))
 
 (defun stored-files (folder)

@@ -36,6 +36,13 @@ EXHAUSTED is NIL, or says when it was stopped by its bounds."
     (format stream "~d run~:p: ~a" (shrinking-runs shrinking)
             (discrepancy-summary (shrinking-discrepancy shrinking)))))
 
+(defun smallest-case (discrepancy)
+  "Return the smaller DISCREPANCY that shrinking made of DISCREPANCY, or NIL if there is none."
+  (let ((shrinking (discrepancy-shrunk discrepancy)))
+    (and shrinking
+         (not (eq (shrinking-discrepancy shrinking) discrepancy))
+         (shrinking-discrepancy shrinking))))
+
 (defun confirmed (shrinker)
   "Return the best case of SHRINKER after another run, which says whether it has the same bits."
   (let ((best (shrinker-best shrinker)))
