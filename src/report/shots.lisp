@@ -73,23 +73,24 @@ of a run."
                  (discrepancy:trace-result-runs trace-result)))
 
 (defun discrepancy-shots (result discrepancy)
-  "Return the shots for the map of DISCREPANCY, which is in RESULT: its own first."
+  "Return the shots for the map of DISCREPANCY, which is in RESULT: its own first, then those of other
+samples from the same discrete state."
   (let* ((run (discrepancy:discrepancy-run discrepancy))
          (sample (discrepancy:discrepancy-sample discrepancy))
+         (trace (discrepancy:discrepancy-trace discrepancy))
          (trace-result (find-if (lambda (trace-result)
                                   (member discrepancy
                                           (discrepancy:trace-result-discrepancies trace-result)))
                                 (discrepancy:result-traces result)))
+         (entries (if trace-result
+                      (remove trace (discrepancy:trace-result-runs trace-result)
+                              :test-not #'eq
+                              :key (lambda (entry)
+                                     (discrepancy:run-trace trace-result (car entry))))
+                      (discrepancy:discrepancy-runs discrepancy)))
          (others (remove-if (lambda (entry)
                               (or (eq (car entry) run)
                                   (eq (discrepancy:run-sample (car entry)) sample)))
-                            (if trace-result
-                                (discrepancy:trace-result-runs trace-result)
-                                (discrepancy:discrepancy-runs discrepancy)))))
-    (entries-shots result
-                   (lambda (other)
-                     (if (and trace-result (not (eq other run)))
-                         (discrepancy:run-trace trace-result other)
-                         (discrepancy:discrepancy-trace discrepancy)))
-                   (discrepancy:discrepancy-execution discrepancy)
+                            entries)))
+    (entries-shots result (constantly trace) (discrepancy:discrepancy-execution discrepancy)
                    (cons (cons run (discrepancy:discrepancy-judgement discrepancy)) others))))

@@ -123,7 +123,33 @@ name of the folder in which it is."
                                   (discrepancy:discrepancy-explanation discrepancy)))))
       (is (eq :same-bits (discrepancy:replay-status
                           (discrepancy:replay (discrepancy:discrepancy-file discrepancy)))))
-      (is (search "\"starts\":[{" (json:encode (discrepancy:result-json result)))))))
+      (let ((page (format nil "~apage.html" folder)))
+        (report:write-report result page)
+        (is (search "box-follows" (uiop:read-file-string page)))))))
+
+(test starts-as-json
+  (with-open-domain (domain folder "(:without box-starts-in-r2)")
+    (let* ((result (find-there-and-back domain :budget 10))
+           (trace (aref (json:get-key (json:parse (json:encode (discrepancy:result-json result)))
+                                      "traces")
+                        0))
+           (starts (json:get-key trace "starts"))
+           (runs (discrepancy:trace-result-runs (only-trace-result result))))
+      (flet ((range (parameters)
+               (let ((x (find "box.x" parameters :test #'string=
+                                                 :key (lambda (entry)
+                                                        (json:get-key entry "name")))))
+                 (list (json:get-key x "min") (json:get-key x "max")))))
+        (is (equal '((1d0 2d0) (0d0 1d0))
+                   (map 'list (lambda (start) (range (json:get-key start "parameters"))) starts)))
+        (is (equal '(0d0 2d0) (range (json:get-key trace "parameters")))))
+      (is (equal (loop for (run) in runs collect (if (box-in-r1-p run) 2 1))
+                 (map 'list (lambda (run) (json:get-key run "start"))
+                      (json:get-key trace "runs"))))
+      (is (= 10 (reduce #'+ starts :key (lambda (start) (json:get-key start "accepted")))))
+      (let ((page (format nil "~apage.html" folder)))
+        (report:write-report result page)
+        (is (search "box.x" (uiop:read-file-string page)))))))
 
 (test states-that-cannot-be-sampled
   "The box may be nowhere, by the theory, or in both regions."

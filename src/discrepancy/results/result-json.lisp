@@ -39,21 +39,20 @@
                "meaning" (json-or-null (parameter-meaning parameter))
                "tolerance" (json-boolean (tolerance-p parameter))))
 
-(defun runs-json (runs)
+(defun runs-json (runs &optional starts)
   "Return RUNS, a list of (run . judgement), with the values that were drawn, in the order of the
-parameters."
+parameters; if there are several STARTS with the number of that which each is from."
   (map 'vector
        (lambda (entry)
          (destructuring-bind (run . judgement) entry
-           (json:object "sample" (sample-index (run-sample run))
-                        "verdict" (string-downcase (judgement-verdict judgement))
-                        "values" (coerce (drawn-values (run-sample run)) 'simple-vector))))
+           (append
+            (json:object "sample" (sample-index (run-sample run))
+                         "verdict" (string-downcase (judgement-verdict judgement))
+                         "values" (coerce (drawn-values (run-sample run)) 'simple-vector))
+            (and (rest starts)
+                 (json:object "start" (1+ (position (sample-parameters (run-sample run)) starts
+                                                    :key #'start-parameters)))))))
        runs))
-
-(defun drawn-parameters (domain trace)
-  "Return the list of the PARAMETERs that are drawn for TRACE; NIL if it cannot be sampled."
-  (handler-case (remove-if #'fixed-p (initial-parameters domain trace))
-    (sampling-error () '())))
 
 ;;; Traces and runs
 
@@ -141,6 +140,20 @@ needs."
                   (shrinking-json (discrepancy-shrunk discrepancy))
                   :null))))
 
+(defun drawn-parameters (starts)
+  "Return the list of the PARAMETERs that are drawn for one of STARTS at least, those of the same
+name as one, with all values that it can have."
+  (let ((parameters (loop for start in starts
+                          append (remove-if #'fixed-p (start-parameters start)))))
+    (loop for parameter in (remove-duplicates parameters :key #'parameter-name :test #'string=
+                                                         :from-end t)
+          for same = (remove (parameter-name parameter) parameters
+                             :key #'parameter-name :test-not #'string=)
+          collect (make-parameter (parameter-body parameter) (parameter-axis parameter)
+                                  (reduce #'min same :key #'parameter-min)
+                                  (reduce #'max same :key #'parameter-max)
+                                  (parameter-meaning parameter) (parameter-region parameter)))))
+
 (defun start-json (start)
   "Return an initial state that samples were drawn from, and how many of them were valid."
   (json:object
@@ -150,9 +163,8 @@ needs."
    "accepted" (start-accepted start)
    "rejected" (start-rejected start)))
 
-(defun trace-result-json (result domain confidence)
-  "Return what sampling a trace of DOMAIN came to, the TRACE-RESULT RESULT; CONFIDENCE is the whole
-search's."
+(defun trace-result-json (result confidence)
+  "Return what sampling a trace came to, the TRACE-RESULT RESULT; CONFIDENCE is the whole search's."
   (let ((trace (trace-result-trace result)))
     (json:object
      "status" (string-downcase (trace-result-status result))
@@ -168,13 +180,14 @@ search's."
      "statement" (trace-result-statement result confidence)
      "warnings" (texts-json (trace-result-warnings result))
      "left_trace" (trace-result-left-trace result)
-     "parameters" (map 'vector #'parameter-json (drawn-parameters domain trace))
+     "parameters" (map 'vector #'parameter-json
+                       (drawn-parameters (trace-result-starts result)))
      "starts" (map 'vector #'start-json (trace-result-starts result))
      "theory" (theory-side-json trace)
      "simulation" (let ((entry (find :consistent (trace-result-runs result)
                                      :key (lambda (entry) (judgement-verdict (cdr entry))))))
                     (if entry (simulation-side-json (car entry)) :null))
-     "runs" (runs-json (trace-result-runs result)))))
+     "runs" (runs-json (trace-result-runs result) (trace-result-starts result)))))
 
 ;;; The search
 
@@ -238,8 +251,7 @@ JSON:ENCODE makes a text of it."
                     "gaps" (texts-json (mapcar #'princ-to-string
                                                (symbolic:exploration-gaps exploration))))
      "traces" (map 'vector (lambda (trace)
-                            (trace-result-json trace (result-domain result)
-                                               (result-confidence result)))
+                            (trace-result-json trace (result-confidence result)))
                    (result-traces result))
      "discrepancies" (map 'vector (lambda (discrepancy) (found-json discrepancy result))
                           (result-discrepancies result)))))
