@@ -91,14 +91,22 @@ RUN, one of RUNS, is that of the discrepancy."
                     :contradicted (loop for before in agreed for after in now
                                         count (< after before))))))))))
 
+(defun speaks-of-elements-p (edit)
+  "Return true if a requirement of EDIT has elements of the theory in it."
+  (some (lambda (requirement)
+          (or (mentions-element-p (requirement-pattern requirement))
+              (mentions-element-p (requirement-formula requirement))))
+        (edit-requirements edit)))
+
 (defun edit-weight (edit)
   "Return a number that is less for the better of two edits that remove a discrepancy and contradict
-nothing: what is determined comes before what is left open, what is short before what is long."
+nothing: what is determined comes before what is left open, what is short before what is long, what
+holds for all elements before what speaks of some."
   (labels ((size (form) (if (consp form)
                             (+ 1 (size (car form)) (size (cdr form)))
                             0)))
     (+ (ecase (edit-kind edit)
-         ((:effect :requirement) 0)
+         ((:effect :requirement) (if (speaks-of-elements-p edit) 500 0))
          (:weaken 1000)
          (:region 1500)
          ((:release :may-fail) 2000)
@@ -150,8 +158,8 @@ with them."
                 (state-edits domain transitions transition divergence)))))
 
 (defun edits-for-run (domain run runs context &optional deadline)
-  "Return the checked edits of DOMAIN for the first divergence of RUN, one of RUNS, best first: those
-whose check is done by the DEADLINE, a time (s) or NIL."
+  "Return the checked edits of DOMAIN for the first divergence of RUN, one of RUNS, best first:
+those whose check is done by the DEADLINE, a time (s) or NIL."
   (let* ((divergence (first-divergence domain run context))
          (transition (and divergence
                           (nth (divergence-step divergence) (run-transitions domain run)))))

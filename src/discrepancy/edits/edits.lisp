@@ -8,8 +8,9 @@
 
 (defstruct (requirement (:copier nil))
   "A change of what the success of the designators of CLASS and TYPE requires: FORMULA is a state
-formula over the variables of PATTERN, the event of success.  Where it is false the action ends in
-one of FAILURES.  MODE is as for SYMBOLIC:REVISED-BINDING."
+formula over the variables of PATTERN, the event of success; if some of its arguments are elements,
+it is about the actions with these.  Where it is false the action ends in one of FAILURES.  MODE is
+as for SYMBOLIC:REVISED-BINDING."
   (class nil :type keyword :read-only t)
   (type nil :type keyword :read-only t)
   (pattern '() :type list :read-only t)

@@ -9,10 +9,6 @@
 
 (in-package #:discrepancy-finder.discrepancy)
 
-(defparameter *separation-chance* 0.05d0
-  "A region is refined only if it is at most so likely that a coordinate separates the runs by
-chance.")
-
 (defun separation-chance (parameters agreeing others)
   "Return a bound of the probability that one of so many PARAMETERS, which have nothing to do with
 it, separates so many AGREEING runs from so many OTHERS: in a random order the ones or the others
