@@ -107,7 +107,8 @@ literals over PATTERN, is required."
          (replaced (and (eq mode :instead)
                         (mapcar #'ec:axiom-name (ec:event-axioms theory (first pattern))))))
     (list kind
-          (precondition-sentences theory pattern condition replaced)
+          (unless (eq mode :unless)
+            (precondition-sentences theory pattern condition replaced))
           replaced
           (list (make-requirement :class (transition-class transition)
                                   :type (transition-type transition) :pattern pattern
@@ -128,8 +129,8 @@ whatever is the case."
         (list :may-fail '() '() (list (change :may-fail))))))
 
 (defun constant-requirements (domain transitions transition)
-  "Return the parts of edits by which the success of TRANSITION, which has failed, requires something
-of particular elements."
+  "Return the parts of edits by which the success of TRANSITION, which has failed, requires
+something of particular elements."
   (multiple-value-bind (conditions pattern) (constant-hypotheses domain transitions transition)
     (loop with alike = (remove-if-not (lambda (other)
                                         (nth-value 1 (matching pattern

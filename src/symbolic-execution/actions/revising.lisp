@@ -44,7 +44,7 @@ requires the formula REQUIRED, as REVISED-BINDING says."
                  (ecase mode
                    (:also (combined :and condition required t))
                    (:instead required)
-                   (:may-fail condition))
+                   ((:unless :may-fail) condition))
                  initargs))
      (loop for (name event condition initargs) in others
            collect (list name event
@@ -71,8 +71,8 @@ requires the formula REQUIRED, as REVISED-BINDING says."
 over the variables of PATTERN, which stands for the event of success; T requires nothing.  Actions
 whose event does not fit PATTERN are as they were.  FAILURES
 are the failure classes that happen where it does not hold; those that BINDING lacks are added.
-MODE is :ALSO, where what was required still is, :INSTEAD, or :MAY-FAIL: then REQUIREMENT is
-ignored, and FAILURES may happen whatever is the case."
+MODE is :ALSO, where what was required still is, :INSTEAD, :UNLESS, where success is possible all
+the same, or :MAY-FAIL: then REQUIREMENT is ignored, and FAILURES may happen whatever is the case."
   (let ((describe (action-binding-describe-outcomes binding)))
     (make-action-binding
      :class (action-binding-class binding) :type (action-binding-type binding)
