@@ -84,7 +84,7 @@ search, replay.")
    #:boundary-passing #:boundary-text #:run-case
    #:recorded-action #:recorded-action-text #:discrepancy-actions #:discrepancy-left-out
    ;; candidate edits of the theory
-   #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-sentences #:edit-replaced
+   #:candidate-edits #:edit #:edit-text #:edit-kind #:edit-support #:edit-sentences #:edit-replaced
    #:edit-requirements #:edit-ranges #:edit-removes-p #:edit-contradicted #:edit-runs
    #:edited-theory #:edited-domain
    ;; refinement

@@ -49,6 +49,8 @@
   (is (equal '((:robot-in :r1) (:not (:holding-box)) (:not (:robot-in :r1)))
              (revised-conditions :instead)))
   (is (equal '((:holding-box) (:not (:holding-box)) t) (revised-conditions :may-fail)))
+  (is (equal '((:holding-box) (:not (:holding-box)) (:not (:robot-in :r1)))
+             (revised-conditions :unless)))
   (is (equal '(lost nil (:not (:robot-in :r1)) ())
              (third (symbolic::revised-outcomes
                      '((:success (:put-down :r1) t ()) (broken nil nil ()))
@@ -287,6 +289,60 @@
                             (discrepancy:judgement-divergence
                              (discrepancy:discrepancy-judgement discrepancy)))))
                     (discrepancy:result-discrepancies result)))))))
+
+(defun coordinate-of-the-box (run axis)
+  "Return the parameter of the sample of RUN that is the coordinate AXIS of the box."
+  (find-if (lambda (parameter)
+             (and (eq :box (discrepancy::parameter-body parameter))
+                  (eq axis (discrepancy::parameter-axis parameter))))
+           (discrepancy:sample-parameters (discrepancy::run-sample run))))
+
+(test what-decides-by-experiment-refines-a-region
+  "Few runs are separated by some coordinate anyhow, but if one was changed alone it decides."
+  (let* ((trace (example-trace))
+         (failing (run-of trace 0.5 0.5 0 1.9 0.4 0))
+         (passing (list (run-of trace 0.5 0.5 0 1.6 0.4 0))))
+    (flet ((edits (&optional (deciding (list (cons (coordinate-of-the-box failing :x) 1.6d0))))
+             (discrepancy:candidate-edits (short-arm-discrepancy trace failing)
+                                          :runs passing :deciding deciding)))
+      (is (notany #'discrepancy:edit-ranges (edits '())))
+      (is (notany #'discrepancy:edit-ranges
+                  (edits (list (cons (coordinate-of-the-box failing :y) 0.4d0)))))
+      (let ((edit (first (edits))))
+        (is (eq :region (discrepancy:edit-kind edit)))
+        (is (equal '(1 1 0 1) (discrepancy:edit-support edit)))
+        (is (search "box :axis x :range (1.0000 1.7500)" (discrepancy:edit-text edit)))
+        (is (equal (format nil "this removes the discrepancy and contradicts none of the 2 runs; ~
+                                in the range 1 of 1 run agrees, outside 0 of 1")
+                   (discrepancy::edit-verdict-text edit)))))))
+
+(test outside-of-what-is-safe-it-may-fail
+  "How far the box may be away in one direction depends on the other."
+  (let* ((trace (example-trace))
+         (failing (run-of trace 0.5 0.5 0 1.79 0.41 0))
+         (passing (loop for (x y) in '((1.8 0.39) (1.6 0.41) (1.5 0.4) (1.4 0.41))
+                        collect (run-of trace 0.5 0.5 0 x y 0)))
+         (edits (discrepancy:candidate-edits
+                 (short-arm-discrepancy trace failing)
+                 :runs passing
+                 :deciding (list (cons (coordinate-of-the-box failing :x) 1.6d0))))
+         (edit (first edits)))
+    (is (eq :region (discrepancy:edit-kind edit)))
+    (is (null (discrepancy:edit-sentences edit)) "success is possible everywhere")
+    (is (search "box :axis x :range (1.0000 1.6950)" (discrepancy:edit-text edit)))
+    (is (search "unless (box-x-in-range)" (discrepancy:edit-text edit)))
+    (is (discrepancy:edit-removes-p edit))
+    (is (zerop (discrepancy:edit-contradicted edit)))
+    (is (equal '(3 3 1 2) (discrepancy:edit-support edit)))
+    (is (eq :may-fail (discrepancy:edit-kind (second edits))))
+    ;; Inside of the range the refined theory says that it succeeds.
+    (let ((edited (discrepancy:edited-domain (two-regions) edit)))
+      (z3:with-context (context)
+        (is (null (discrepancy::first-divergence edited failing context)))
+        (let ((moved (copy-structure failing)))
+          (setf (slot-value moved 'discrepancy::sample)
+                (discrepancy::run-sample (second passing)))
+          (is-true (discrepancy::first-divergence edited moved context)))))))
 
 (test a-fluent-may-depend-on-one-coordinate
   (ec:register-theory (ec:revised-theory

@@ -209,6 +209,26 @@
           (ask one))))
     (is (= 3 checks))))
 
+(test runs-around-a-first-failure-refine-its-region
+  "Where the search has seen nothing but the failure, what the further runs show is offered."
+  (let* ((trace (example-trace))
+         (domain (discrepancy:domain-with-parameters (two-regions) '(:reach 0.5)))
+         (bad (run-of trace 0.5 0.5 0 1.9 0.4 0))
+         (explanation (discrepancy:explain-discrepancy
+                       (discrepancy-of domain bad trace :sample (discrepancy::run-sample bad))
+                       :runs '()))
+         (edit (first (discrepancy:explanation-edits explanation))))
+    (is (eq :region (discrepancy:edit-kind edit)))
+    (is (search "box" (discrepancy:edit-text edit)))
+    (is-true (discrepancy:edit-removes-p edit))
+    (is (zerop (discrepancy:edit-contradicted edit)))
+    (destructuring-bind (agreeing number agreeing-outside outside)
+        (discrepancy:edit-support edit)
+      (is (plusp number))
+      (is (= agreeing number))
+      (is (< agreeing-outside outside))
+      (is (<= (+ number outside) (discrepancy:edit-runs edit))))))
+
 (test the-nearest-run-that-agrees-is-where-to-begin
   "From a run that agrees and differs in all coordinates, those that do not matter are left out."
   (let* ((trace (example-trace))

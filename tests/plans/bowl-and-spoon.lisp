@@ -196,3 +196,30 @@ that the way is blocked; 6 find before that the bowl is lost."
                      :test #'equal))
         (is (< 1 (count 1 kinds :key #'second) 15)))
       (is (equal '((:state :going (:holding)) 1) (found-kind 8)))))
+
+(test what-blocks-the-way-is-named
+  "The theory gets a precondition that speaks of the drawer, if there are runs enough that tell."
+  (let* ((discrepancy (df:result-discrepancy
+                       (df:find-discrepancies *leaving-open*
+                                              :domain (bowl-and-spoon :bowl-and-spoon)
+                                              :constraint :successful-navigation
+                                              :confidence 0.99 :seed 2)))
+         (explanation (discrepancy:explain-discrepancy discrepancy :max-runs 5))
+         (edit (first (discrepancy:explanation-edits explanation)))
+         (edited (discrepancy:edited-domain (discrepancy:discrepancy-domain discrepancy) edit)))
+    (is (eq :requirement (discrepancy:edit-kind edit)))
+    (is (search "event (navigate before-workspace), requires (not (open drawer-2)); else it ends in"
+                (discrepancy:edit-text edit)))
+    (is-true (discrepancy:edit-removes-p edit))
+    (is (zerop (discrepancy:edit-contradicted edit)))
+    (is (eq :may-fail (discrepancy:edit-kind
+                       (second (discrepancy:explanation-edits explanation))))
+        "what leaves nothing open is preferred")
+    (z3:with-context (context)
+      (is (null (discrepancy::first-divergence edited (discrepancy:discrepancy-run discrepancy)
+                                               context))))
+    ;; One failure alone is separated from others by many things.
+    (is (equal '(:may-fail)
+               (mapcar #'discrepancy:edit-kind
+                       (discrepancy:explanation-edits
+                        (discrepancy:explain-discrepancy discrepancy :max-runs 0)))))))

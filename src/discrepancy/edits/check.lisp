@@ -71,14 +71,14 @@ edited, a state in which the action can succeed."
       (event-possible-p domain (transition-success transition) context)))
 
 (defun checked-edit (domain parts transition run runs agreed context &optional deadline)
-  "Return the EDIT of PARTS (kind sentences replaced requirements ranges) of DOMAIN, checked against
-RUNS, or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed, or
+  "Return the EDIT of PARTS (kind sentences replaced requirements ranges support) of DOMAIN, checked
+against RUNS, or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed, or
 the check takes longer than to the DEADLINE.  AGREED tells how far the theory agrees with RUNS now;
 RUN, one of RUNS, is that of the discrepancy."
-  (destructuring-bind (kind sentences replaced &optional requirements ranges) parts
+  (destructuring-bind (kind sentences replaced &optional requirements ranges support) parts
     (flet ((edit (&rest figures)
              (apply #'make-edit :kind kind :sentences sentences :replaced replaced
-                                :requirements requirements :ranges ranges
+                                :requirements requirements :ranges ranges :support support
                                 :runs (length runs) figures)))
       (let ((edited (handler-case (edited-domain domain (edit))
                       (ec:theory-error () nil)))
@@ -91,16 +91,24 @@ RUN, one of RUNS, is that of the discrepancy."
                     :contradicted (loop for before in agreed for after in now
                                         count (< after before))))))))))
 
+(defun speaks-of-elements-p (edit)
+  "Return true if a requirement of EDIT has elements of the theory in it."
+  (some (lambda (requirement)
+          (or (mentions-element-p (requirement-pattern requirement))
+              (mentions-element-p (requirement-formula requirement))))
+        (edit-requirements edit)))
+
 (defun edit-weight (edit)
   "Return a number that is less for the better of two edits that remove a discrepancy and contradict
-nothing: what is determined comes before what is left open, what is short before what is long."
+nothing: what is determined comes before what is left open, what is short before what is long, what
+holds for all elements before what speaks of some."
   (labels ((size (form) (if (consp form)
                             (+ 1 (size (car form)) (size (cdr form)))
                             0)))
     (+ (ecase (edit-kind edit)
-         ((:effect :requirement) 0)
+         ((:effect :requirement) (if (speaks-of-elements-p edit) 500 0))
          (:weaken 1000)
-         (:region 1500)
+         (:region (if (find :unless (edit-requirements edit) :key #'requirement-mode) 1750 1500))
          ((:release :may-fail) 2000)
          (:guess 3000))
        (if (edit-requirements edit)
@@ -138,20 +146,20 @@ the reason is a state that its effects would lead to."
                (= (divergence-step effects) (divergence-step divergence)))
       (state-edits domain transitions transition effects))))
 
-(defun edit-parts-for (domain transition run runs agreed divergence context)
-  "Return the parts (kind sentences replaced requirements ranges) of edits for DIVERGENCE of RUN at
-TRANSITION, best first; RUNS are those to learn from, and AGREED tells how far the theory agrees
-with them."
+(defun edit-parts-for (domain transition run runs agreed deciding divergence context)
+  "Return the parts (kind sentences replaced requirements ranges support) of edits for DIVERGENCE of
+RUN at TRANSITION, best first; RUNS are those to learn from, AGREED tells how far the theory agrees
+with them, and DECIDING is as for REGION-EDITS."
   (let ((transitions (loop for run in runs append (remove nil (run-transitions domain run)))))
-    (append (region-edits domain transition divergence run runs agreed)
+    (append (region-edits domain transition divergence run runs agreed deciding)
             (if (eq (divergence-kind divergence) :outcome)
                 (append (edits-of-effects domain transitions transition run divergence context)
                         (outcome-edits domain transitions transition context))
                 (state-edits domain transitions transition divergence)))))
 
-(defun edits-for-run (domain run runs context &optional deadline)
-  "Return the checked edits of DOMAIN for the first divergence of RUN, one of RUNS, best first: those
-whose check is done by the DEADLINE, a time (s) or NIL."
+(defun edits-for-run (domain run runs context &key deciding deadline)
+  "Return the checked edits of DOMAIN for the first divergence of RUN, one of RUNS, best first:
+those whose check is done by the DEADLINE, a time (s) or NIL.  DECIDING is as for REGION-EDITS."
   (let* ((divergence (first-divergence domain run context))
          (transition (and divergence
                           (nth (divergence-step divergence) (run-transitions domain run)))))
@@ -163,7 +171,7 @@ whose check is done by the DEADLINE, a time (s) or NIL."
         (stable-sort
          (loop with checked = 0
                for parts in (remove-duplicates (edit-parts-for domain transition run runs agreed
-                                                               divergence context)
+                                                               deciding divergence context)
                                                :test #'equalp :from-end t)
                for edit = (and (not (over-p deadline))
                                (checked-edit domain parts transition run runs agreed context
@@ -200,15 +208,17 @@ contradicts nothing; else with the best two."
 
 (defun candidate-edits (discrepancy &key (runs (append (known-runs discrepancy)
                                                        (other-runs discrepancy)))
-                                      guesses max-seconds)
+                                      deciding guesses max-seconds)
   "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
 checked by judging again RUNS, a list of valid runs or of (RUN . JUDGEMENT) in the same domain, and
 the run of DISCREPANCY itself.  By default RUNS are those that the search had
-made, of this trace and of earlier ones.  With GUESSES preconditions of what has succeeded in no run
-are not left out.  What is not checked within MAX-SECONDS (NIL: no limit) is not in the list."
+made, of this trace and of earlier ones.  DECIDING is a list of (parameter . value) of what is known
+to decide: with the value, all else as in DISCREPANCY, theory and simulation agree.  With GUESSES
+preconditions of what has succeeded in no run are not left out.  What is not checked within MAX-SECONDS (NIL: no limit) is not in the list."
   (let* ((deadline (and max-seconds (+ (foreign:monotonic-seconds) max-seconds)))
          (run (discrepancy-run discrepancy))
          (runs (adjoin run (plain-runs runs)))
          (edits (z3:with-context (context)
-                  (edits-for-run (discrepancy-domain discrepancy) run runs context deadline))))
+                  (edits-for-run (discrepancy-domain discrepancy) run runs context
+                                :deciding deciding :deadline deadline))))
     (if guesses edits (without-guesses edits))))

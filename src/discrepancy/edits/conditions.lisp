@@ -15,6 +15,10 @@
 (defparameter *conditions-wanted* 6
   "So many conditions are handed out at most.")
 
+(defparameter *separation-chance* 0.05d0
+  "A coordinate, or a literal with elements, that separates the runs counts only if it is at most so
+likely that one does by chance.")
+
 (defstruct (row (:constructor make-row (table bindings)) (:copier nil))
   "The observed state TABLE and the BINDINGS of the variables of a lifting."
   (table nil :type hash-table :read-only t)
@@ -120,14 +124,15 @@ first that hold in more rows of the mask GOOD, then those of plainer literals."
                                            (< (second one) (second other)))))))))
 
 (defun best-conditions (domain literals required bad-rows
-                        &key good-rows (acceptable (constantly t)))
+                        &key good-rows (acceptable (constantly t))
+                          (longest *condition-length*))
   "Return the shortest conditions out of LITERALS that hold in all rows of REQUIRED and in none of
 BAD-ROWS, and are ACCEPTABLE, by a function of a condition: a list of lists, at most
-*CONDITIONS-WANTED* of at most *CONDITION-LENGTH* literals.  Of those of the same length, the ones
+*CONDITIONS-WANTED* of at most LONGEST literals.  Of those of the same length, the ones
 that hold in more of GOOD-ROWS come first."
   (let ((useful (useful-literals (symbolic:action-theory-theory domain) literals required bad-rows
                                  good-rows)))
-    (loop for length from 0 to *condition-length*
+    (loop for length from 0 to longest
           for wanted = *conditions-wanted*
           for conditions = (loop for condition in (conditions-of-length
                                                    length useful

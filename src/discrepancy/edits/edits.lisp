@@ -8,14 +8,15 @@
 
 (defstruct (requirement (:copier nil))
   "A change of what the success of the designators of CLASS and TYPE requires: FORMULA is a state
-formula over the variables of PATTERN, the event of success.  Where it is false the action ends in
-one of FAILURES.  MODE is as for SYMBOLIC:REVISED-BINDING."
+formula over the variables of PATTERN, the event of success; if some of its arguments are elements,
+it is about the actions with these.  Where it is false the action ends in one of FAILURES.  MODE is
+as for SYMBOLIC:REVISED-BINDING."
   (class nil :type keyword :read-only t)
   (type nil :type keyword :read-only t)
   (pattern '() :type list :read-only t)
   (formula t :read-only t)
   (failures '() :type list :read-only t)
-  (mode :also :type (member :also :instead :may-fail) :read-only t))
+  (mode :also :type (member :also :instead :unless :may-fail) :read-only t))
 
 (defun requirement-text (requirement)
   "Return what REQUIREMENT says, as a clause."
@@ -25,6 +26,9 @@ one of FAILURES.  MODE is as for SYMBOLIC:REVISED-BINDING."
     (format nil "~(~a~) ~a, event ~a, ~a" class (ec:name-text type) (ec:formula-text pattern)
             (cond ((eq mode :may-fail)
                    (format nil "may end in ~{~(~a~)~^ or ~} at any time" failures))
+                  ((eq mode :unless)
+                   (format nil "may end in ~{~(~a~)~^ or ~} unless ~a" failures
+                           (ec:formula-text formula)))
                   ((eq formula t) "succeeds whatever is the case")
                   (t (format nil "~:[requires~;requires, instead of what it did,~] ~a~@[; else ~
                                   it ends in ~{~(~a~)~^ or ~}~]"
@@ -35,12 +39,14 @@ one of FAILURES.  MODE is as for SYMBOLIC:REVISED-BINDING."
 :MAY-FAIL and :REGION, what it is about.  SENTENCES is a list of (name formula), REPLACED a list of
 names of axioms, REQUIREMENTS a list of requirements, RANGES a list of coordinate ranges, whose
 fluents are new.  CONTRADICTED of the RUNS runs that it was checked against agreed further with the
-theory before."
+theory before.  SUPPORT is NIL or, for a range, (agreeing number agreeing-outside number-outside) of
+the runs that were compared: how many are in it, and how many of these agree with the theory."
   (kind :effect :type keyword :read-only t)
   (sentences '() :type list :read-only t)
   (replaced '() :type list :read-only t)
   (requirements '() :type list :read-only t)
   (ranges '() :type list :read-only t)
+  (support '() :type list :read-only t)
   (removes-p nil :type boolean :read-only t)
   (contradicted 0 :type (integer 0) :read-only t)
   (runs 0 :type (integer 0) :read-only t))
@@ -59,6 +65,10 @@ effect or the precondition depends on it)."
       "Return what an edit changes in the action bindings: a list of REQUIREMENTs."
       (documentation 'edit-ranges 'function)
       "Return the coordinate ranges whose fluents an edit adds: a list."
+      (documentation 'edit-support 'function)
+      "Return NIL or, of an edit that adds a range, the list (agreeing number agreeing-outside
+number-outside) of the runs from the same discrete state: how many are in the range, and how many of
+these agree with the theory as it was."
       (documentation 'edit-removes-p 'function)
       "Return true if an edit removes the discrepancy: theory and simulation no longer part where
 they did."
@@ -92,8 +102,9 @@ they did."
 (defun edit-verdict-text (edit)
   "Return what the check of EDIT came to, as a clause."
   (format nil "this ~:[does not remove~;removes~] the discrepancy and contradicts ~[none~:;~:*~d~] ~
-               of the ~d run~:p"
-          (edit-removes-p edit) (edit-contradicted edit) (edit-runs edit)))
+               of the ~d run~:p~@[; ~{in the range ~d of ~d run~:p ~
+               ~:*agree~[~;s~:;~], outside ~d of ~d~}~]"
+          (edit-removes-p edit) (edit-contradicted edit) (edit-runs edit) (edit-support edit)))
 
 (defun edit-text (edit)
   "Return EDIT in words, on one line: what is added, replaced or removed.  What its check came to is

@@ -9,7 +9,7 @@
 (defstruct (transition (:copier nil))
   "What was seen of one step: the states BEFORE and AFTER as tables of truth values, EVENT (ground,
 or NIL), the event SUCCESS that the binding of CLASS and TYPE has on success, and the OUTCOMES
-(names) of the binding that the seen one can be."
+(names) of the binding that the seen one can be.  REPORT is the failure in words, or an empty text."
   (class nil :type keyword :read-only t)
   (type nil :type keyword :read-only t)
   (before nil :type hash-table :read-only t)
@@ -18,6 +18,7 @@ or NIL), the event SUCCESS that the binding of CLASS and TYPE has on success, an
   (success '() :type list :read-only t)
   (succeeded-p t :type boolean :read-only t)
   (failure nil :type symbol :read-only t)
+  (report "" :type string :read-only t)
   (outcomes '() :type list :read-only t))
 
 (defun state-table (state)
@@ -65,7 +66,7 @@ of several events."
                        :event (first events)
                        :success (symbolic:outcome-event (first outcomes))
                        :succeeded-p (eq (run-step-outcome step) :success)
-                       :failure (run-step-outcome step)
+                       :failure (run-step-outcome step) :report (or (run-step-failure step) "")
                        :outcomes (mapcar #'symbolic:outcome-name seen)))))
 
 (defun run-transitions (domain run)
@@ -121,14 +122,20 @@ of several events."
               for binding = (assoc term bindings)
               collect (if binding (cdr binding) term))))
 
+(defun variable-p (term)
+  (and (symbolp term) (char= #\? (char (symbol-name term) 0))))
+
 (defun matching (pattern atom)
-  "Return the bindings under which PATTERN, of variables, is ATOM, and true; or NIL and NIL."
+  "Return the bindings under which PATTERN, of variables and elements, is ATOM, and true; or NIL and
+NIL."
   (let ((bindings '()))
-    (loop for variable in (rest pattern)
+    (loop for term in (rest pattern)
           for element in (rest atom)
-          for known = (assoc variable bindings)
-          do (cond ((null known) (push (cons variable element) bindings))
-                   ((not (eql (cdr known) element)) (return-from matching (values nil nil)))))
+          for known = (if (variable-p term)
+                          (assoc term bindings)
+                          (cons term term))
+          do (cond ((null known) (push (cons term element) bindings))
+                   ((not (equal (cdr known) element)) (return-from matching (values nil nil)))))
     (values bindings (and (eq (first pattern) (first atom)) t))))
 
 (defun all-bindings (theory bindings variables)

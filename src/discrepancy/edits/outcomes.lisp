@@ -2,8 +2,9 @@
 ;;;;
 ;;;; What success requires is learned from all transitions of the same kind of action: the shortest
 ;;;; condition that holds before each success and before no failure.  It becomes a precondition of
-;;;; the event and a requirement of the action binding.  Where no condition tells the one from the
-;;;; other, the action may fail at any time.
+;;;; the event and a requirement of the action binding.  Where no condition over variables tells the
+;;;; one from the other, one with elements may (constants.lisp), or else the action may fail at any
+;;;; time.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -106,7 +107,8 @@ literals over PATTERN, is required."
          (replaced (and (eq mode :instead)
                         (mapcar #'ec:axiom-name (ec:event-axioms theory (first pattern))))))
     (list kind
-          (precondition-sentences theory pattern condition replaced)
+          (unless (eq mode :unless)
+            (precondition-sentences theory pattern condition replaced))
           replaced
           (list (make-requirement :class (transition-class transition)
                                   :type (transition-type transition) :pattern pattern
@@ -125,6 +127,18 @@ whatever is the case."
                       (ec:event-axioms (symbolic:action-theory-theory domain) (first pattern)))
               (list (change :instead) (change :may-fail)))
         (list :may-fail '() '() (list (change :may-fail))))))
+
+(defun constant-requirements (domain transitions transition)
+  "Return the parts of edits by which the success of TRANSITION, which has failed, requires
+something of particular elements."
+  (multiple-value-bind (conditions pattern) (constant-hypotheses domain transitions transition)
+    (loop with alike = (remove-if-not (lambda (other)
+                                        (nth-value 1 (matching pattern
+                                                               (transition-success other))))
+                                      transitions)
+          for condition in conditions
+          collect (requirement-parts domain :requirement transition pattern condition
+                                     (failure-names alike transition) :also))))
 
 (defun outcome-edits (domain transitions transition context)
   "Return the parts (kind sentences replaced requirements) of edits for the outcome of TRANSITION,
@@ -146,6 +160,8 @@ which the theory forbids, best first."
                                           '(:also :instead))
                           collect (requirement-parts domain kind transition pattern condition
                                                      failures mode)))
+       (unless (or conditions (transition-succeeded-p transition))
+         (constant-requirements domain transitions transition))
        (list (may-fail-parts domain transition pattern failures))
        ;; A sentence of the theory may be what forbids a success.
        (when (transition-succeeded-p transition)

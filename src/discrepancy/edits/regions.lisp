@@ -4,14 +4,14 @@
 ;;;; A coordinate SEPARATES the runs if the values of those that agree lie in a range that has none
 ;;;; of the others, or the other way round.  The edit adds a fluent, that the coordinate is in this
 ;;;; range, and lets the precondition or the effect depend on it.  Checked against the runs, the
-;;;; fluent is as it was in the beginning; what the actions do to it, the next search tells.  Few
-;;;; runs are separated by some coordinate anyhow: where that is likely nothing is proposed.
+;;;; fluent is as it was in the beginning; what the actions do to it, the next search tells.
+;;;;
+;;;; Few runs are separated by some coordinate anyhow: where that is likely a coordinate must be
+;;;; DECIDING, known from runs in which it was changed and nothing else.  One that decides and does
+;;;; not separate, since others have a say in where the boundary is, has a SAFE range, in which all
+;;;; runs agree: outside of it the action may fail.
 
 (in-package #:discrepancy-finder.discrepancy)
-
-(defparameter *separation-chance* 0.05d0
-  "A region is refined only if it is at most so likely that a coordinate separates the runs by
-chance.")
 
 (defun separation-chance (parameters agreeing others)
   "Return a bound of the probability that one of so many PARAMETERS, which have nothing to do with
@@ -63,6 +63,40 @@ part of the parameter's range."
              collect (destructuring-bind (min max margin) range
                        (list (/ margin (- high low)) parameter min max (and inside t))))
      #'> :key #'first)))
+
+(defun safe-range (parameter value agreeing others)
+  "Return (min max): the range of PARAMETER around VALUE, which agrees, without any of the samples
+OTHERS, its ends halfway between these and the next ones of AGREEING; or NIL if there is none."
+  (flet ((values-in (samples)
+           (loop for sample in samples
+                 collect (sample-coordinate sample (parameter-body parameter)
+                                            (parameter-axis parameter)))))
+    (let* ((bad (values-in others))
+           (below (remove-if-not (lambda (bad) (<= bad value)) bad))
+           (above (remove-if-not (lambda (bad) (>= bad value)) bad))
+           (lower (and below (reduce #'max below)))
+           (upper (and above (reduce #'min above)))
+           (good (cons value (remove-if-not (lambda (good)
+                                              (and (or (null lower) (> good lower))
+                                                   (or (null upper) (< good upper))))
+                                            (values-in agreeing)))))
+      (when (and bad (< (or lower (1- value)) value (or upper (1+ value))))
+        (list (if lower (/ (+ lower (reduce #'min good)) 2) (parameter-min parameter))
+              (if upper (/ (+ upper (reduce #'max good)) 2) (parameter-max parameter)))))))
+
+(defun range-support (range agreeing others)
+  "Return (agreeing number agreeing-outside number-outside) of the samples AGREEING and OTHERS, of
+which some are in RANGE."
+  (flet ((inside (samples)
+           (count-if (lambda (sample)
+                       (in-coordinate-range-p
+                        range (sample-coordinate sample (coordinate-range-body range)
+                                                 (coordinate-range-axis range))))
+                     samples)))
+    (let ((good (inside agreeing)) (bad (inside others)))
+      (list good (+ good bad)
+            (- (length agreeing) good)
+            (- (+ (length agreeing) (length others)) good bad)))))
 
 (defun separable-parameters (sample samples)
   "Return the parameters of SAMPLE that are coordinates of bodies and were drawn, not the same in
@@ -130,31 +164,57 @@ about come about only where the literal AGREEING is false."
                           :key (lambda (change) (change-kind theory change)))
            collect (cons :region (refined-effect domain change agreeing))))))
 
-(defun region-edit (domain transition divergence transitions entry)
-  "Return the parts (kind sentences replaced requirements ranges) of the edit by ENTRY of
-SEPARATING-RANGES, or NIL."
-  (destructuring-bind (parameter min max inside) (rest entry)
-    (let* ((theory (symbolic:action-theory-theory domain))
-           (range (new-range theory parameter min max))
-           (agreeing (if inside
-                         (coordinate-range-atom range)
-                         (list :not (coordinate-range-atom range)))))
-      (cond ((and (eq (divergence-kind divergence) :outcome) (transition-succeeded-p transition))
-             nil)
-            ((eq (divergence-kind divergence) :outcome)
-             (append (requirement-parts domain :region transition
-                                        (general-pattern theory (transition-success transition))
-                                        (list agreeing) (failure-names transitions transition)
-                                        :also)
-                     (list (list range))))
-            ((transition-event transition)
-             (append (refined-effects domain transition divergence agreeing)
-                     (list '() (list range))))))))
+(defun region-edit (domain transition divergence transitions range inside mode)
+  "Return the parts (kind sentences replaced requirements ranges) of the edit by which theory and
+simulation agree in RANGE, a coordinate range, or, unless INSIDE, outside of it; or NIL.  MODE is
+:ALSO or :UNLESS, as for a requirement."
+  (let* ((theory (symbolic:action-theory-theory domain))
+         (agreeing (if inside
+                       (coordinate-range-atom range)
+                       (list :not (coordinate-range-atom range)))))
+    (cond ((and (eq (divergence-kind divergence) :outcome) (transition-succeeded-p transition))
+           nil)
+          ((eq (divergence-kind divergence) :outcome)
+           (append (requirement-parts domain :region transition
+                                      (general-pattern theory (transition-success transition))
+                                      (list agreeing) (failure-names transitions transition)
+                                      mode)
+                   (list (list range))))
+          ((and (transition-event transition) (eq mode :also))
+           (append (refined-effects domain transition divergence agreeing)
+                   (list '() (list range)))))))
 
-(defun region-edits (domain transition divergence run runs agreed)
+(defun parameter-in (parameters parameter)
+  "Return that of PARAMETERS that is the same coordinate as PARAMETER, or NIL."
+  (find-if (lambda (other)
+             (and (eq (parameter-body other) (parameter-body parameter))
+                  (eq (parameter-axis other) (parameter-axis parameter))))
+           parameters))
+
+(defun proposed-ranges (theory parameters good bad deciding)
+  "Return (range inside mode) for the coordinate ranges, arguments of REGION-EDIT, by which the
+samples GOOD, with which the theory agrees, and BAD can be told apart."
+  (let* ((deciding (loop for (parameter . value) in deciding
+                         for own = (parameter-in parameters parameter)
+                         when own collect (cons own value)))
+         (separating (if (<= (separation-chance (length parameters) (length good) (length bad))
+                             *separation-chance*)
+                         (separating-ranges parameters good bad)
+                         ;; That all is well on both sides of a few failures, nobody has tried.
+                         (remove-if-not #'fifth
+                                        (separating-ranges (mapcar #'car deciding) good bad)))))
+    (append (loop for (nil parameter min max inside) in separating
+                  collect (list (new-range theory parameter min max) inside :also))
+            (loop for (parameter . value) in deciding
+                  for (min max) = (and (not (find parameter separating :key #'second))
+                                       (safe-range parameter value good bad))
+                  when min collect (list (new-range theory parameter min max) t :unless)))))
+
+(defun region-edits (domain transition divergence run runs agreed &optional deciding)
   "Return the parts of edits that refine a region for DIVERGENCE of RUN, one of RUNS, at TRANSITION.
 AGREED tells how far the theory agrees with RUNS.  Only runs from the same discrete initial state
-are compared: where bodies are in other regions it is not their coordinates that matter."
+are compared: where bodies are in other regions it is not their coordinates that matter.  DECIDING
+is a list of (parameter . value): with the value, all else as in RUN, theory and simulation agree."
   (let* ((alike (mapcar (lambda (other)
                           (equal (run-initial-state other) (run-initial-state run)))
                         runs))
@@ -166,9 +226,9 @@ are compared: where bodies are in other regions it is not their coordinates that
                     when (and alike-p (= far own)) collect (run-sample run)))
          (parameters (separable-parameters (run-sample run) (append good bad)))
          (transitions (loop for run in runs append (remove nil (run-transitions domain run)))))
-    (when (and good (<= (separation-chance (length parameters) (length good) (length bad))
-                        *separation-chance*))
-      (loop for entry in (separating-ranges parameters good bad)
+    (when good
+      (loop for (range inside mode) in (proposed-ranges (symbolic:action-theory-theory domain)
+                                                        parameters good bad deciding)
             repeat 2
-            for parts = (region-edit domain transition divergence transitions entry)
-            when parts collect parts))))
+            for parts = (region-edit domain transition divergence transitions range inside mode)
+            when parts collect (append parts (list (range-support range good bad)))))))

@@ -148,6 +148,12 @@ RUN has followed it so far, else that of success."
                                                   (discrepancy-judgement discrepancy))
                                      :context context)))))
 
+(defun deciding-values (influences)
+  "Return (parameter . value) for those of INFLUENCES that are of one parameter: what agrees."
+  (loop for influence in influences
+        for (parameter . more) = (influence-parameters influence)
+        unless more collect (cons parameter (first (influence-agreeing influence)))))
+
 (defparameter *part-for-runs* 2/3
   "This part of the time for an explanation is for runs; what is left of it is for edits.")
 
@@ -178,6 +184,7 @@ INVALID-ARGUMENT."
                :edits (candidate-edits
                        discrepancy
                        :runs (append (mapcar #'car (append known probes)) others)
+                       :deciding (deciding-values influences)
                        :max-seconds (and max-seconds
                                          (max 0 (- (+ start max-seconds)
                                                    (foreign:monotonic-seconds)))))

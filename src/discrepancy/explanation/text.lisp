@@ -220,6 +220,7 @@ observed-in-the-run-3)\"."
    "removes" (json-boolean (edit-removes-p edit))
    "contradicted" (edit-contradicted edit)
    "runs" (edit-runs edit)
+   "support" (if (edit-support edit) (coerce (edit-support edit) 'vector) :null)
    "verdict" (edit-verdict-text edit)))
 
 (defun explanation-json (explanation)

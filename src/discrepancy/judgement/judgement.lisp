@@ -230,8 +230,8 @@ OBSERVED was seen, and with the state there.  CONTEXT is a Z3 context or NIL for
             (funcall function solver state))))))
 
 (defun judged-steps (domain observed steps &key trace (comparison :consistent) context memory)
-  "Return what JUDGE-STEPS returns for STEPS, which follow the state OBSERVED.  What MEMORY, a memory
-or NIL, has of it is not asked again."
+  "Return what JUDGE-STEPS returns for STEPS, which follow the state OBSERVED.  What MEMORY, a
+memory or NIL, has of it is not asked again."
   (flet ((ask ()
            (call-with-judge (lambda (solver state)
                               (judge-steps domain solver state steps trace comparison))

@@ -3,9 +3,9 @@
 (in-package #:discrepancy-finder.symbolic-execution)
 
 (defun path-logic (ground &optional numeric)
-  "Return the logic of Z3's engine for paths of the theory GROUND; NUMERIC if there are numbers apart
-from its fluents.  The questions are many and small: the engine for QF_UF, which keeps what it has
-learnt, is some ten times faster there than the one for QF_FD."
+  "Return the logic of Z3's engine for paths of the theory GROUND; NUMERIC if there are numbers
+apart from its fluents.  The questions are many and small: the engine for QF_UF, which keeps what
+it has learnt, is some ten times faster there than the one for QF_FD."
   (if (or numeric (ec:ground-numeric-p ground)) nil "QF_UF"))
 
 (defun make-path-oracle (ground &key numeric timeout options signals-unknown)
