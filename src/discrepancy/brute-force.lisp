@@ -18,18 +18,18 @@
 
 ;;; The theory without what is drawn
 
-(defun speaks-of-p (formula names)
+(defun has-name-p (formula names)
   "Return true if FORMULA has a term or atom whose name is one of NAMES."
   (and (consp formula)
        (or (member (first formula) names)
-           (some (lambda (part) (speaks-of-p part names)) (rest formula)))))
+           (some (lambda (part) (has-name-p part names)) (rest formula)))))
 
 (defun beginnings (domain)
   "Return the axioms of the theory of DOMAIN that say what can be observed at the beginning."
   (let ((names (mapcar #'first (observed-atoms (domain-observers domain)))))
     (remove-if-not (lambda (axiom)
                      (and (ec:about-the-beginning-p axiom)
-                          (speaks-of-p (ec:axiom-formula axiom) names)))
+                          (has-name-p (ec:axiom-formula axiom) names)))
                    (ec:theory-axioms (symbolic:action-theory-theory domain)))))
 
 (defun domain-beginning-anywhere (domain)
