@@ -1,11 +1,11 @@
 ;;;; Simulation without a trace: the baseline that guided search is measured against.
 ;;;;
-;;;; A BLIND SEARCH knows nothing of the plan, nor of where it is meant to begin.  Its state space is
-;;;; that of the abstraction.  It draws a discrete state: every body that has a placement is in one
-;;;; of its regions, every joint in one of its ranges, each as likely as the others.  Then it draws
-;;;; continuous states for it, a body anywhere in its region and turned any way, until one is valid:
-;;;; nothing penetrates anything, all comes to rest, and the discrete state is then the one drawn.
-;;;; The theory's axioms about states must allow it.  Tolerances are drawn as ever.
+;;;; A BLIND SEARCH knows nothing of the plan, nor of where that is meant to begin.  Its state space
+;;;; is that of the abstraction.  It draws a discrete state: every body that has a placement is in
+;;;; one of its regions, every joint in one of its ranges, each as likely as the others.  Then it
+;;;; draws continuous states for it, a body anywhere in its region and turned any way, until one is
+;;;; valid: nothing penetrates anything, all comes to rest, and the discrete state is then the one
+;;;; drawn.  The theory's axioms about states must allow it.  Tolerances are drawn as ever.
 ;;;;
 ;;;; What the theory says of the beginning and what can be observed is set aside: that is what is
 ;;;; drawn.  What it says of the beginning and what cannot be observed, that the arms are parked,
@@ -33,8 +33,8 @@
                    (ec:theory-axioms (symbolic:action-theory-theory domain)))))
 
 (defun domain-beginning-anywhere (domain)
-  "Return a domain like DOMAIN whose theory leaves open what can be observed at the beginning.  It is
-not registered."
+  "Return a domain like DOMAIN whose theory leaves open what can be observed at the beginning.  It
+is not registered."
   (changed-domain domain
                   :theory (ec:revised-theory (symbolic:action-theory-theory domain)
                                              :without (mapcar #'ec:axiom-name
@@ -96,7 +96,8 @@ is otherwise."
                       (distinct #'joint-range-joint ranges))))))
 
 (defun draw-alternatives (choices seed index)
-  "Return one of each of CHOICES, lists of alternatives: a discrete state, a function of the arguments."
+  "Return one of each of CHOICES, lists of alternatives: a discrete state, a function of the
+arguments."
   (loop with content = (content-hash "the discrete state of a simulation without a trace")
         for choice in choices
         for draw from 0
@@ -149,8 +150,9 @@ not allow the state in which it begins."
 
 (defstruct (blind-result (:copier nil))
   "What a blind search came to: the number of SIMULATIONS, the number of initial states that were
-REJECTED because nothing can be like that or the theory does not allow it, the KINDS of all discrepancies as a list of (kind .
-count), the first DISCREPANCY of a wanted kind or NIL, and the SECONDS that it took."
+REJECTED because nothing can be like that or the theory does not allow it, the KINDS of all
+discrepancies as a list of (kind . count), the first DISCREPANCY of a wanted kind or NIL, and the
+SECONDS that it took."
   (simulations 0 :type (integer 0) :read-only t)
   (rejected 0 :type (integer 0) :read-only t)
   (kinds '() :type list :read-only t)
@@ -184,8 +186,8 @@ its limits, or the theory does not allow them."
   "When so many initial states in a row are not valid a blind search gives up.")
 
 (defun next-blind-run (domain plan seed index)
-  "Return the first run of PLAN that counts, from the samples INDEX, INDEX + 1, ..., the judgement on
-it, and its index."
+  "Return the first run of PLAN that counts, from the samples INDEX, INDEX + 1, ..., the judgement
+on it, and its index."
   (loop with choices = (initial-choices domain)
         with alternatives
         for draw from 0 below *draws-per-simulation*
