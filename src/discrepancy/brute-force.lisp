@@ -1,100 +1,158 @@
 ;;;; Simulation without a trace: the baseline that guided search is measured against.
 ;;;;
-;;;; A BLIND SEARCH knows nothing of the plan.  It draws a discrete initial state evenly from those
-;;;; that the theory allows, and a continuous one from all that map to it: where the domain's
-;;;; observers name a range to draw from, a body may here be anywhere in its region, turned any way.
-;;;; The plan runs to its end, and its own events and outcomes are judged by the theory.  The search
-;;;; ends with the first discrepancy of a wanted kind.
+;;;; A BLIND SEARCH knows nothing of the plan, nor of where that is meant to begin.  Its state space
+;;;; is that of the abstraction.  It draws a discrete state: every body that has a placement is in
+;;;; one of its regions, every joint in one of its ranges, each as likely as the others.  Then it
+;;;; draws continuous states for it, a body anywhere in its region and turned any way, until one is
+;;;; valid: nothing penetrates anything, all comes to rest, and the discrete state is then the one
+;;;; drawn.  The theory's axioms about states must allow it.  Tolerances are drawn as ever.
 ;;;;
-;;;; SIMULATE-BLINDLY is the entry point.
+;;;; What the theory says of the beginning and what can be observed is set aside: that is what is
+;;;; drawn.  What it says of the beginning and what cannot be observed, that the arms are parked,
+;;;; say, is kept, since the robot does begin so.
+;;;;
+;;;; The plan runs to its end, and its own events and outcomes are judged by the theory.  The search
+;;;; ends with the first discrepancy of a wanted kind.  SIMULATE-BLINDLY is the entry point.
 
 (in-package #:discrepancy-finder.discrepancy)
 
-;;; Discrete initial states
+;;; The theory without what is drawn
 
-(defparameter *initial-state-limit* 1000
-  "More discrete initial states than this are not enumerated.")
+(defun has-name-p (formula names)
+  "Return true if FORMULA has a term or atom whose name is one of NAMES."
+  (and (consp formula)
+       (or (member (first formula) names)
+           (some (lambda (part) (has-name-p part names)) (rest formula)))))
 
-(defun state-key (state)
-  "Return a string that orders STATE, a list of (atom . truth), among others."
-  (format nil "~{~a ~}" (mapcar #'ec:atom-text (observed-fluents state))))
+(defun beginnings (domain)
+  "Return the axioms of the theory of DOMAIN that say what can be observed at the beginning."
+  (let ((names (mapcar #'first (observed-atoms (domain-observers domain)))))
+    (remove-if-not (lambda (axiom)
+                     (and (ec:about-the-beginning-p axiom)
+                          (has-name-p (ec:axiom-formula axiom) names)))
+                   (ec:theory-axioms (symbolic:action-theory-theory domain)))))
 
-(defun allowed-initial-states (domain)
-  "Return the list of the initial states that the theory of DOMAIN allows, as far as they can be
-observed: lists of (atom . truth).  Signals SAMPLING-ERROR if there are more than a limit."
-  (let ((atoms (observed-atoms (domain-observers domain)))
-        (states '()))
-    (z3:with-context (context)
-      (z3:with-solver (solver context)
-        (let ((state (free-state (symbolic:action-theory-ground domain) context '())))
-          (loop for (nil . proposition) in (ec:initial-conditions state)
-                do (z3:solver-assert solver proposition))
-          (loop while (eq (z3:check solver) :sat)
-                do (when (>= (length states) *initial-state-limit*)
-                     (error 'sampling-error
-                            :trace nil :reason (format nil "the theory allows more than ~d initial ~
-                                                            states" *initial-state-limit*)))
-                   (push (loop for atom in atoms
-                               collect (cons atom (z3:model-value
-                                                   solver (ec:fluent-value state atom))))
-                         states)
-                   (z3:solver-assert
-                    solver
-                    (z3:negation (z3:conjunction (observation state (first states))))))
-          (sort states #'string< :key #'state-key))))))
+(defun domain-beginning-anywhere (domain)
+  "Return a domain like DOMAIN whose theory leaves open what can be observed at the beginning.  It
+is not registered."
+  (changed-domain domain
+                  :theory (ec:revised-theory (symbolic:action-theory-theory domain)
+                                             :without (mapcar #'ec:axiom-name
+                                                              (beginnings domain)))))
 
-;;; All of the continuous states that map to one
+;;; Discrete states.  An ALTERNATIVE is (atoms . PARAMETERs): where one body or joint may be, and
+;;; what holds then.
 
 (defun whole-range (axis coordinate region)
   "Return the bounds of AXIS of a body that is somewhere in REGION; COORDINATE is what its placement
-says of AXIS.  Bodies stand on something: their height is that of the placement."
+says of AXIS.  Bodies stand on something: their height is that of the placement or, where that is
+not in REGION, the region's top, from which they fall."
   (let ((bounds (rest (assoc axis (region-bounds region)))))
     (cond ((eq axis :yaw) (or bounds (list (- pi) pi)))
-          ((and bounds (not (eq axis :z))) bounds)
-          (t (coordinate-range coordinate region)))))
+          ((null bounds) (coordinate-range coordinate region))
+          ((eq axis :z)
+           (let ((height (coordinate-range coordinate region)))
+             (if (<= (first bounds) (first height) (second height) (second bounds))
+                 height
+                 (list (second bounds) (second bounds)))))
+          (t bounds))))
 
 (defun whole-placement-parameters (placement region)
+  "Return the PARAMETERs of the body of PLACEMENT anywhere in REGION."
   (loop for coordinate in (placement-coordinates placement)
         for axis = (first coordinate)
         for (min max) = (whole-range axis coordinate region)
         collect (make-parameter (placement-body placement) axis min max nil
                                 (and (not (region-box-p region)) region))))
 
-(defun whole-state-parameters (domain state)
-  "Return the PARAMETERs whose values are the continuous states that map to STATE, a list of (atom .
-truth)."
-  (flet ((true-p (atom) (cdr (assoc atom state :test #'equal))))
-    (append
-     (loop for placement in (placements domain)
-           append (loop for region in (placement-regions placement)
-                        when (true-p (placement-atom placement region))
-                          append (whole-placement-parameters placement region)))
-     (loop for range in (remove-if-not #'joint-range-p (domain-observers domain))
-           for (min max) = (if (true-p (joint-range-atom range))
-                               (list (joint-range-min range) (joint-range-max range))
-                               (joint-range-otherwise range))
-           when min collect (make-parameter (joint-range-joint range) :position min max))
-     (tolerance-parameters (domain-scene domain)))))
+(defun body-alternatives (domain body)
+  "Return the alternatives for BODY: the regions of its placements."
+  (loop for placement in (placements domain)
+        when (eq (placement-body placement) body)
+          append (loop for region in (placement-regions placement)
+                       collect (cons (list (placement-atom placement region))
+                                     (whole-placement-parameters placement region)))))
+
+(defun joint-alternatives (ranges joint)
+  "Return the alternatives for JOINT: those of RANGES, JOINT-RANGEs, that are its own, and where it
+is otherwise."
+  (let* ((own (remove joint ranges :key #'joint-range-joint :test-not #'string=))
+         (otherwise (some #'joint-range-otherwise own)))
+    (flet ((alternative (atoms min max)
+             (cons atoms (list (make-parameter joint :position min max)))))
+      (append (loop for range in own
+                    collect (alternative (list (joint-range-atom range))
+                                         (joint-range-min range) (joint-range-max range)))
+              (and otherwise (list (alternative '() (first otherwise) (second otherwise))))))))
+
+(defun initial-choices (domain)
+  "Return a list of the alternatives for each body and each joint of DOMAIN."
+  (let ((ranges (remove-if-not #'joint-range-p (domain-observers domain))))
+    (flet ((distinct (function things)
+             (remove-duplicates (mapcar function things) :test #'equal :from-end t)))
+      (append (mapcar (lambda (body) (body-alternatives domain body))
+                      (distinct #'placement-body (placements domain)))
+              (mapcar (lambda (joint) (joint-alternatives ranges joint))
+                      (distinct #'joint-range-joint ranges))))))
+
+(defun draw-alternatives (choices seed index)
+  "Return one of each of CHOICES, lists of alternatives: a discrete state, a function of the
+arguments."
+  (loop with content = (content-hash "the discrete state of a simulation without a trace")
+        for choice in choices
+        for draw from 0
+        collect (nth (floor (* (length choice) (unit-float seed content index draw))) choice)))
+
+(defun draw-blindly (domain alternatives seed index)
+  "Return a sample of the discrete state ALTERNATIVES of DOMAIN, a function of the arguments."
+  (draw-sample (append (mapcan (lambda (alternative) (copy-list (rest alternative))) alternatives)
+                       (tolerance-parameters (domain-scene domain)))
+               seed (content-hash "a simulation without a trace") index))
+
+(defun settled-state (domain sample)
+  "Return the discrete state of DOMAIN to which SAMPLE comes, or NIL if it is not valid."
+  (handler-case
+      (with-open-projection (projection (projection:make-projection
+                                         (domain-scene domain)
+                                         :poses (sample-poses (domain-scene domain) sample)
+                                         :joints (sample-joints sample)
+                                         :parameters (sample-tolerances sample)))
+        (flet ((valid-p () (eq :valid (sample-validity projection nil '()))))
+          (and (valid-p) (projection:settle projection) (valid-p)
+               (discrete-state domain projection))))
+    ;; A range may go beyond a joint's limits, for what is observed there.
+    (projection:impossible-joint-position () nil)))
+
+(defun comes-to-p (domain sample alternatives choices)
+  "Return true if SAMPLE is valid and comes to the discrete state ALTERNATIVES, one of each of
+CHOICES."
+  (let ((state (settled-state domain sample))
+        (drawn (mapcan (lambda (alternative) (copy-list (first alternative))) alternatives)))
+    (and state
+         (loop for (atoms) in (apply #'append choices)
+               always (loop for atom in atoms
+                            always (eq (and (member atom drawn :test #'equal) t)
+                                       (and (cdr (assoc atom state :test #'equal)) t)))))))
 
 ;;; Runs
 
 (defun judge-alone (domain run)
-  "Return the JUDGEMENT on RUN, made for no trace, by the theory of DOMAIN."
-  (multiple-value-bind (consistent divergence)
-      (judged-steps domain (run-initial-state run) (run-steps run))
-    (make-judgement :divergence divergence
-                    :verdict (if consistent :consistent :discrepancy))))
-
-(defun mapped-p (run state)
-  "Return true if RUN began in STATE, a list of (atom . truth)."
-  (and (eq (run-validity run) :valid)
-       (loop for (atom . truth) in state
-             always (eq truth (and (cdr (assoc atom (run-initial-state run) :test #'equal)) t)))))
+  "Return the JUDGEMENT on RUN, made for no trace, by the theory of DOMAIN; NIL if the theory does
+not allow the state in which it begins."
+  (call-with-judge
+   (lambda (solver state)
+     (when (eq (z3:check solver) :sat)
+       (multiple-value-bind (consistent divergence)
+           (judge-steps domain solver state (run-steps run) nil :consistent)
+         (make-judgement :divergence divergence
+                         :verdict (if consistent :consistent :discrepancy)))))
+   domain run nil))
 
 (defstruct (blind-result (:copier nil))
   "What a blind search came to: the number of SIMULATIONS, the number of initial states that were
-REJECTED because nothing can be like that, the KINDS of all discrepancies as a list of (kind .
-count), the first DISCREPANCY of a wanted kind or NIL, and the SECONDS that it took."
+REJECTED because nothing can be like that or the theory does not allow it, the KINDS of all
+discrepancies as a list of (kind . count), the first DISCREPANCY of a wanted kind or NIL, and the
+SECONDS that it took."
   (simulations 0 :type (integer 0) :read-only t)
   (rejected 0 :type (integer 0) :read-only t)
   (kinds '() :type list :read-only t)
@@ -104,8 +162,9 @@ count), the first DISCREPANCY of a wanted kind or NIL, and the SECONDS that it t
 (setf (documentation 'blind-result-simulations 'function)
       "Return the number of simulations of a blind search."
       (documentation 'blind-result-rejected 'function)
-      "Return how many initial states of a blind search were drawn and not simulated: in them bodies
-penetrate each other, or come to rest in another discrete state."
+      "Return how many initial states of a blind search were drawn and do not count: in them bodies
+penetrate each other, or come to rest in another discrete state or not at all, or a joint is beyond
+its limits, or the theory does not allow them."
       (documentation 'blind-result-kinds 'function)
       "Return the list of (kind . count) of the discrepancies that a blind search has met."
       (documentation 'blind-result-discrepancy 'function)
@@ -120,33 +179,31 @@ penetrate each other, or come to rest in another discrete state."
                  (kind-text (blind-result-discrepancy result)))
             (blind-result-simulations result))))
 
-(defun draw-blindly (domain states seed index)
-  "Return sample INDEX of a blind search, and its discrete state, one of STATES."
-  (let* ((content (content-hash "a simulation without a trace"))
-         (state (nth (floor (* (length states) (unit-float seed content index 65535))) states)))
-    (values (draw-sample (whole-state-parameters domain state) seed content index) state)))
+(defparameter *draws-per-state* 100
+  "When so many samples of a discrete state are not valid another one is drawn.")
 
-(defparameter *draws-per-simulation* 1000
+(defparameter *draws-per-simulation* 10000
   "When so many initial states in a row are not valid a blind search gives up.")
 
-(defun next-blind-run (domain plan states seed index)
-  "Return the first valid run of PLAN from the samples INDEX, INDEX + 1, ..., and its index."
-  (loop for number from index repeat *draws-per-simulation*
-        do (multiple-value-bind (sample state) (draw-blindly domain states seed number)
-             (let ((run (execute-sample domain plan sample)))
-               (when (mapped-p run state)
-                 (return (values run number)))))
+(defun next-blind-run (domain plan seed index)
+  "Return the first run of PLAN that counts, from the samples INDEX, INDEX + 1, ..., the judgement
+on it, and its index."
+  (loop with choices = (initial-choices domain)
+        with alternatives
+        for draw from 0 below *draws-per-simulation*
+        for number = (+ index draw)
+        do (when (zerop (mod draw *draws-per-state*))
+             (setf alternatives (draw-alternatives choices seed number)))
+           (let ((sample (draw-blindly domain alternatives seed number)))
+             (when (comes-to-p domain sample alternatives choices)
+               (let* ((run (execute-sample domain plan sample))
+                      (judgement (judge-alone domain run)))
+                 (when judgement
+                   (return (values run judgement number))))))
         finally (error 'sampling-error
                        :trace nil
                        :reason (format nil "~d random initial states in a row were not valid"
                                        *draws-per-simulation*))))
-
-(defun blind-discrepancy (plan domain seed run)
-  "Return the DISCREPANCY that RUN of PLAN is, or NIL."
-  (let ((judgement (judge-alone domain run)))
-    (and (eq (judgement-verdict judgement) :discrepancy)
-         (make-discrepancy :plan plan :domain domain :execution :plan :seed seed
-                           :sample (run-sample run) :run run :judgement judgement))))
 
 (defun simulate-blindly (plan &key domain (kinds t) (seed 1) (budget 1000) progress)
   "Run PLAN (a symbol) in DOMAIN (a domain or its name) from random initial states, over the whole
@@ -156,22 +213,21 @@ bits; BUDGET is the largest number of simulations.  PROGRESS is NIL or a functio
 with the number of simulations after each.  Signals PLAN-NOT-FOUND, DOMAIN-NOT-FOUND,
 SAMPLING-ERROR."
   (let* ((plan (ensure-plan plan))
-         (domain (ensure-domain domain))
-         (states (or (allowed-initial-states domain)
-                     (error 'sampling-error :trace nil
-                                            :reason "the theory allows no initial state")))
+         (domain (domain-beginning-anywhere (ensure-domain domain)))
          (start (foreign:monotonic-seconds))
          (index 0) (simulations 0) (met '()) (found nil))
     (loop until (or found (= simulations budget))
-          do (multiple-value-bind (run number)
-                 (next-blind-run domain (plan:plan-name plan) states seed index)
+          do (multiple-value-bind (run judgement number)
+                 (next-blind-run domain (plan:plan-name plan) seed index)
                (setf index (1+ number))
                (incf simulations)
                (when progress
                  (funcall progress simulations))
-               (let* ((discrepancy (blind-discrepancy plan domain seed run))
-                      (kind (and discrepancy (discrepancy-kind discrepancy))))
-                 (when discrepancy
+               (when (eq (judgement-verdict judgement) :discrepancy)
+                 (let* ((discrepancy (make-discrepancy
+                                      :plan plan :domain domain :execution :plan :seed seed
+                                      :sample (run-sample run) :run run :judgement judgement))
+                        (kind (discrepancy-kind discrepancy)))
                    (incf (cdr (or (assoc kind met :test #'equal)
                                   (first (push (cons kind 0) met)))))
                    (when (or (eq kinds t) (member kind kinds :test #'equal))

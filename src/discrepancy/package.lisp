@@ -101,6 +101,6 @@ search, replay.")
    #:journal-error #:journal-error-file #:journal-error-reason
    #:invalid-argument
    ;; simulation without a trace
-   #:simulate-blindly #:allowed-initial-states #:blind-result #:blind-result-simulations
+   #:simulate-blindly #:blind-result #:blind-result-simulations
    #:blind-result-rejected #:blind-result-kinds #:blind-result-discrepancy
    #:blind-result-seconds #:discrepancy-summary))

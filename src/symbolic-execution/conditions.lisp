@@ -100,7 +100,7 @@ symbolic execution, unless :FILE-OUTPUT allows it."))
 (define-condition domain-not-found (symbolic-execution-error)
   ((name :initarg :name :reader domain-not-found-name :documentation "The name in question.")
    (known :initarg :known :initform '() :reader domain-not-found-known
-          :documentation "The names, strings, of the domains that files in models/ define, or NIL."))
+          :documentation "The names, strings, of domains that files in models/ define, or NIL."))
   (:report (lambda (condition stream)
              (format stream "There is no domain named ~(~a~)~@[; it would be defined by ~
                              define-abstraction, and the files in models/ define ~{~a~^, ~}~]."

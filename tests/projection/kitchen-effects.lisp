@@ -42,7 +42,7 @@ arrive, :lost, or :carried."
                               :parameters (drawn-tolerances subject index))
       (flet ((held-p () (member item (projection:held-items projection) :key #'cdr)))
         (let ((lifted (outcome (funcall 'discrepancy-finder-user::fetch-from-the-workspace
-                                         item :left))))
+                                        item :left))))
           (if (not (and (eq lifted :done) (held-p)))
               (values :not-lifted lifted)
               (let ((arrived (outcome (funcall 'discrepancy-finder-user::stand-at

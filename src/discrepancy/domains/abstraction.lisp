@@ -39,12 +39,13 @@ from."
   (remove nil (append (list (domain-file domain)) (domain-extended-files domain)
                       (ec:theory-files (symbolic:action-theory-theory domain)))))
 
-(defun changed-domain (domain &key (scene (domain-scene domain))
+(defun changed-domain (domain &key (theory (symbolic:action-theory-theory domain))
+                                (scene (domain-scene domain))
                                 (observers (domain-observers domain)))
-  "Return a domain like DOMAIN with another SCENE and other OBSERVERS."
+  "Return a domain like DOMAIN with another THEORY, another SCENE and other OBSERVERS."
   (make-instance 'domain
                  :name (symbolic:action-theory-name domain)
-                 :theory (symbolic:action-theory-theory domain)
+                 :theory theory
                  :actions (symbolic:action-theory-actions domain)
                  :documentation (domain-documentation domain)
                  :scene scene :regions (domain-regions domain) :observers observers

@@ -3,8 +3,8 @@
 ;;;;
 ;;;; A stored discrepancy is tried if it is one of the same plan, domain, state constraint and scene
 ;;;; parameters.  It is run in the domain of the search, as that is now, from the sample in the
-;;;; file: what theory, scene or plan have changed since has its say.  The smallest case of one stands
-;;;; beside it, for replay; it is not tried, since the original is.
+;;;; file: what theory, scene or plan have changed since has its say.  The smallest case of one
+;;;; stands beside it, for replay; it is not tried, since the original is.
 
 (in-package #:discrepancy-finder.discrepancy)
 
