@@ -146,7 +146,7 @@ not allow the state in which it begins."
            (judge-steps domain solver state (run-steps run) nil :consistent)
          (make-judgement :divergence divergence
                          :verdict (if consistent :consistent :discrepancy)))))
-   domain run nil))
+   domain (run-initial-state run) nil))
 
 (defstruct (blind-result (:copier nil))
   "What a blind search came to: the number of SIMULATIONS, the number of initial states that were
