@@ -72,9 +72,9 @@ edited, a state in which the action can succeed."
 
 (defun checked-edit (domain parts transition run runs agreed context &optional deadline)
   "Return the EDIT of PARTS (kind sentences replaced requirements ranges support) of DOMAIN, checked
-against RUNS, or NIL if it makes no theory, or one in which the action of TRANSITION can never succeed, or
-the check takes longer than to the DEADLINE.  AGREED tells how far the theory agrees with RUNS now;
-RUN, one of RUNS, is that of the discrepancy."
+against RUNS, or NIL if it makes no theory, or one in which the action of TRANSITION can never
+succeed, or the check takes longer than to the DEADLINE.  AGREED tells how far the theory agrees
+with RUNS now; RUN, one of RUNS, is that of the discrepancy."
   (destructuring-bind (kind sentences replaced &optional requirements ranges support) parts
     (flet ((edit (&rest figures)
              (apply #'make-edit :kind kind :sentences sentences :replaced replaced
@@ -211,10 +211,11 @@ contradicts nothing; else with the best two."
                                       deciding guesses max-seconds)
   "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
 checked by judging again RUNS, a list of valid runs or of (RUN . JUDGEMENT) in the same domain, and
-the run of DISCREPANCY itself.  By default RUNS are those that the search had
-made, of this trace and of earlier ones.  DECIDING is a list of (parameter . value) of what is known
-to decide: with the value, all else as in DISCREPANCY, theory and simulation agree.  With GUESSES
-preconditions of what has succeeded in no run are not left out.  What is not checked within MAX-SECONDS (NIL: no limit) is not in the list."
+the run of DISCREPANCY itself.  By default RUNS are those that the search had made, of this trace
+and of earlier ones.  DECIDING is a list of (parameter . value) of what is known to decide: with the
+value, all else as in DISCREPANCY, theory and simulation agree.  With GUESSES preconditions of what
+has succeeded in no run are not left out.  What is not checked within MAX-SECONDS (NIL: no limit) is
+not in the list."
   (let* ((deadline (and max-seconds (+ (foreign:monotonic-seconds) max-seconds)))
          (run (discrepancy-run discrepancy))
          (runs (adjoin run (plain-runs runs)))

@@ -44,8 +44,8 @@
   (loop for element in list repeat count collect element))
 
 (defun patterns-for (theory event)
-  "Return the patterns of EVENT as (pattern . variables), the general ones first; VARIABLES is a list
-of (variable sort)."
+  "Return the patterns of EVENT as (pattern . variables), the general ones first; VARIABLES is a
+list of (variable sort)."
   (multiple-value-bind (general lifting) (general-pattern theory event)
     (let ((choices (list '())))
       ;; Which of the arguments are elements: all sets of them.
@@ -63,9 +63,10 @@ of (variable sort)."
                                 unless element-p collect (list variable sort)))))))
 
 (defun constant-literals (domain variables report)
-  "Return literals with elements, and maybe some of VARIABLES, a list of (variable sort): those first
-that speak of what the text REPORT names, and of these the negated ones, since what an action does
-not mention is rather in its way than needed; and the number of those that speak of what is named."
+  "Return literals with elements, and maybe some of VARIABLES, a list of (variable sort): those
+first that speak of what the text REPORT names, and of these the negated ones, since what an action
+does not mention is rather in its way than needed; and the number of those that speak of what is
+named."
   (let* ((theory (symbolic:action-theory-theory domain))
          (declarations (observed-declarations domain))
          (elements (loop for sort in (remove-duplicates (reduce #'append declarations :key #'rest))
@@ -84,8 +85,8 @@ not mention is rather in its way than needed; and the number of those that speak
                 (min *constant-literals* (length first)))))))
 
 (defun literal-chance (count successes failures)
-  "Return a bound of the probability that one of COUNT literals, which have nothing to do with it, is
-true before each of so many SUCCESSES and false before each of so many FAILURES."
+  "Return a bound of the probability that one of COUNT literals, which have nothing to do with it,
+is true before each of so many SUCCESSES and false before each of so many FAILURES."
   (/ (float count 1d0) (alexandria:binomial-coefficient (+ successes failures) failures)))
 
 (defun constant-hypotheses (domain transitions transition)

@@ -98,12 +98,15 @@ which some are in RANGE."
             (- (length agreeing) good)
             (- (+ (length agreeing) (length others)) good bad)))))
 
+(defun body-coordinate-p (parameter)
+  "Return true if PARAMETER is a coordinate of a body; a drawn tolerance, for example, is none."
+  (and (keywordp (parameter-body parameter)) (assoc (parameter-axis parameter) *axes*) t))
+
 (defun separable-parameters (sample samples)
   "Return the parameters of SAMPLE that are coordinates of bodies and were drawn, not the same in
 all SAMPLES."
   (remove-if-not (lambda (parameter)
-                   (and (keywordp (parameter-body parameter)) (not (fixed-p parameter))
-                        (assoc (parameter-axis parameter) *axes*)
+                   (and (body-coordinate-p parameter) (not (fixed-p parameter))
                         (rest (remove-duplicates
                                (loop for sample in samples
                                      collect (sample-coordinate sample (parameter-body parameter)

@@ -3,8 +3,9 @@
 ;;;; From the runs that a search has made, the one that agrees with the theory and is nearest to the
 ;;;; failing one is taken.  PROBES, further runs from the failing sample with some coordinates
 ;;;; changed, first find a smallest set of coordinates that have to be changed for theory and
-;;;; simulation to agree, then halve the way between what fails and what agrees.  What is left of
-;;;; the budget goes to the other coordinates, one at a time.  Probes are the same in every call.
+;;;; simulation to agree, then halve the way between what fails and what agrees, and try the other
+;;;; end of the range.  What is left of the budget goes to the other coordinates, one at a time.
+;;;; Probes are the same in every call.
 ;;;; Entry point: FIND-INFLUENCES.
 
 (in-package #:discrepancy-finder.discrepancy)
@@ -143,6 +144,36 @@ with which theory and simulation agree; or NIL."
         for number from 0
         unless (fixed-p parameter) collect number))
 
+(defun values-with (prober number value)
+  "Return the failing values but for coordinate NUMBER, which has VALUE."
+  (let ((values (copy-seq (failing-values prober))))
+    (setf (aref values number) value)
+    values))
+
+(defun range-end (parameter upper-p)
+  "Return the least or greatest value that PARAMETER can have in a sample."
+  (let ((min (parameter-min parameter)) (max (parameter-max parameter)))
+    ;; The upper bound belongs to the next region.
+    (if upper-p (- max (* 1d-6 (- max min))) min)))
+
+(defun moved-values (prober number place)
+  "Return the failing values with coordinate NUMBER at PLACE of its range: in the :MIDDLE, at the
+:FAR end or at the :NEAR one."
+  (let* ((parameter (nth number (prober-parameters prober)))
+         (middle (/ (+ (parameter-min parameter) (parameter-max parameter)) 2))
+         (low-p (< (aref (failing-values prober) number) middle)))
+    (values-with prober number (ecase place
+                                 (:middle middle)
+                                 (:far (range-end parameter low-p))
+                                 (:near (range-end parameter (not low-p)))))))
+
+(defun probe-beyond (prober number value)
+  "Try the end of the range of coordinate NUMBER on the other side of VALUE, which agrees: how far
+that goes is evidence for edits."
+  (probe prober (values-with prober number
+                             (range-end (nth number (prober-parameters prober))
+                                        (< (aref (failing-values prober) number) value)))))
+
 ;;; A smallest set of coordinates
 
 (defun chunks (list size)
@@ -192,6 +223,9 @@ not, each (count least greatest), or NIL if there are none of either."
                (:fails (setf fails middle))
                ;; Something else lies in between, or there are no more runs.
                (t (return))))
+    (when (and (null (rest numbers))
+               (body-coordinate-p (nth (first numbers) (prober-parameters prober))))
+      (probe-beyond prober (first numbers) (aref others (first numbers))))
     (flet ((values-at (fraction)
              (let ((values (mixed-values prober numbers others fraction)))
                (loop for number in numbers collect (aref values number)))))
@@ -202,23 +236,6 @@ not, each (count least greatest), or NIL if there are none of either."
                       :agreeing (values-at agrees)))))
 
 ;;; One coordinate at a time
-
-(defun moved-values (prober number place)
-  "Return the failing values with coordinate NUMBER at PLACE of its range: in the :MIDDLE, at the
-:FAR end or at the :NEAR one."
-  (let* ((parameter (nth number (prober-parameters prober)))
-         (min (parameter-min parameter))
-         (max (parameter-max parameter))
-         ;; The upper bound belongs to the next region.
-         (below-max (- max (* 1d-6 (- max min))))
-         (middle (/ (+ min max) 2))
-         (values (copy-seq (failing-values prober))))
-    (setf (aref values number)
-          (ecase place
-            (:middle middle)
-            (:far (if (< (aref values number) middle) below-max min))
-            (:near (if (< (aref values number) middle) min below-max))))
-    values))
 
 (defun single-influences (prober numbers)
   "Return the influences of the coordinates among NUMBERS that decide when they are moved alone, to
