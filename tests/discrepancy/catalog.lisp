@@ -46,10 +46,11 @@
   (is (string= "(bowl-and-spoon bowl-and-spoon-closing) kitchen-drawers"
                (last-line-of-another-process
                 "discrepancy-finder"
-                `(let ((plans (df:load-plan 'discrepancy-finder-user::bowl-and-spoon-closing))
-                       (domain (df:load-domain 'discrepancy-finder-user::kitchen-drawers)))
-                   (format t "~&~(~a ~a~)~%" (mapcar (function plan:plan-name) (last plans 2))
-                           (symbolic:action-theory-name domain)))))))
+                '(format t "~&~(~a ~a~)~%"
+                  (mapcar #'plan:plan-name
+                   (last (df:load-plan 'discrepancy-finder-user::bowl-and-spoon-closing) 2))
+                  (symbolic:action-theory-name
+                   (df:load-domain 'discrepancy-finder-user::kitchen-drawers)))))))
 
 (test unknown-names-are-told-with-the-known-ones
   (signals-with (df:plan-not-found "no plan named no-such-plan" "setting-the-table")
