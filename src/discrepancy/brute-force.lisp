@@ -73,13 +73,13 @@ not in REGION, the region's top, from which they fall."
                        collect (cons (list (placement-atom placement region))
                                      (whole-placement-parameters placement region)))))
 
-(defun joint-alternatives (ranges joint)
-  "Return the alternatives for JOINT: those of RANGES, JOINT-RANGEs, that are its own, and where it
-is otherwise."
+(defun joint-alternatives (scene ranges joint)
+  "Return the alternatives for JOINT of SCENE: those of RANGES, JOINT-RANGEs, that are its own, and
+where it is otherwise."
   (let* ((own (remove joint ranges :key #'joint-range-joint :test-not #'string=))
          (otherwise (some #'joint-range-otherwise own)))
     (flet ((alternative (atoms min max)
-             (cons atoms (list (make-parameter joint :position min max)))))
+             (cons atoms (list (joint-parameter scene joint min max)))))
       (append (loop for range in own
                     collect (alternative (list (joint-range-atom range))
                                          (joint-range-min range) (joint-range-max range)))
@@ -92,7 +92,8 @@ is otherwise."
              (remove-duplicates (mapcar function things) :test #'equal :from-end t)))
       (append (mapcar (lambda (body) (body-alternatives domain body))
                       (distinct #'placement-body (placements domain)))
-              (mapcar (lambda (joint) (joint-alternatives ranges joint))
+              (mapcar (lambda (joint)
+                        (joint-alternatives (domain-scene domain) ranges joint))
                       (distinct #'joint-range-joint ranges))))))
 
 (defun draw-alternatives (choices seed index)
@@ -111,17 +112,14 @@ arguments."
 
 (defun settled-state (domain sample)
   "Return the discrete state of DOMAIN to which SAMPLE comes, or NIL if it is not valid."
-  (handler-case
-      (with-open-projection (projection (projection:make-projection
-                                         (domain-scene domain)
-                                         :poses (sample-poses (domain-scene domain) sample)
-                                         :joints (sample-joints sample)
-                                         :parameters (sample-tolerances sample)))
-        (flet ((valid-p () (eq :valid (sample-validity projection nil '()))))
-          (and (valid-p) (projection:settle projection) (valid-p)
-               (discrete-state domain projection))))
-    ;; A range may go beyond a joint's limits, for what is observed there.
-    (projection:impossible-joint-position () nil)))
+  (with-open-projection (projection (projection:make-projection
+                                     (domain-scene domain)
+                                     :poses (sample-poses (domain-scene domain) sample)
+                                     :joints (sample-joints sample)
+                                     :parameters (sample-tolerances sample)))
+    (flet ((valid-p () (eq :valid (sample-validity projection nil '()))))
+      (and (valid-p) (projection:settle projection) (valid-p)
+           (discrete-state domain projection)))))
 
 (defun comes-to-p (domain sample alternatives choices)
   "Return true if SAMPLE is valid and comes to the discrete state ALTERNATIVES, one of each of
@@ -163,8 +161,8 @@ SECONDS that it took."
       "Return the number of simulations of a blind search."
       (documentation 'blind-result-rejected 'function)
       "Return how many initial states of a blind search were drawn and do not count: in them bodies
-penetrate each other, or come to rest in another discrete state or not at all, or a joint is beyond
-its limits, or the theory does not allow them."
+penetrate each other, or come to rest in another discrete state or not at all, or the theory does
+not allow them."
       (documentation 'blind-result-kinds 'function)
       "Return the list of (kind . count) of the discrepancies that a blind search has met."
       (documentation 'blind-result-discrepancy 'function)

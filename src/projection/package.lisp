@@ -29,7 +29,7 @@
    #:scene-item-names #:scene-item-type #:scene-item-grasps #:scene-tolerances
    #:scene-open-tolerances
    #:scene-knows-p
-   #:scene-robot-name #:scene-arm-names #:scene-joint-p
+   #:scene-robot-name #:scene-arm-names #:scene-joint #:scene-joint-limits
    ;; URDF
    #:read-urdf #:urdf-model #:urdf-model-name #:urdf-model-root #:urdf-model-links
    #:urdf-model-joints #:urdf-link #:urdf-joint

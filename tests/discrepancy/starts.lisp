@@ -8,17 +8,21 @@
 (in-suite starts)
 
 (defparameter *there-and-back* "(in-package #:discrepancy-finder-user)
+(def-top-level-cram-function to-the-table ()
+  (let ((?table (make-pose -0.3 0 0)))
+    (perform (a motion (type going) (pose ?table)))))
 (def-top-level-cram-function there-and-back ()
   (let ((?there (make-pose 1.5 0 0))
         (?back (make-pose 0.5 0 0)))
     (perform (a motion (type going) (pose ?there)))
     (perform (a motion (type going) (pose ?back)))))
 "
-  "A plan of two steps.")
+  "A plan of one step for the kitchen, and one of two.")
 
-(defun call-with-open-domain (function clauses)
-  "Call FUNCTION with the domain of Example 1 whose theory extends its by CLAUSES, a text, and the
-name of the folder in which it is."
+(defun call-with-open-domain (function clauses &optional (theory "models/two-regions/theory.lisp")
+                                                 (domain "models/two-regions/domain.lisp"))
+  "Call FUNCTION with the domain in the file DOMAIN, but for the theory, which extends that in the
+file THEORY by CLAUSES, a text; and with the name of the folder in which it is."
   (with-folder (folder)
     (flet ((file (name control &rest arguments)
              (let ((file (format nil "~a~a" folder name)))
@@ -26,19 +30,19 @@ name of the folder in which it is."
                  (apply #'format stream control arguments))
                file)))
       (file "theory.lisp" "(define-theory open-regions (:extends ~s) ~a)"
-            (root-file "models/two-regions/theory.lisp") clauses)
+            (root-file theory) clauses)
       (plan:load-plan (file "plan.lisp" "~a" *there-and-back*))
       (funcall function
                (discrepancy:load-domain
                 (file "domain.lisp" "(in-package #:discrepancy-finder-user)~@
                                      (define-abstraction open-regions (:extends ~s)
                                        (:theory \"theory.lisp\"))"
-                      (root-file "models/two-regions/domain.lisp")))
+                      (root-file domain)))
                folder))))
 
-(defmacro with-open-domain ((domain folder clauses) &body body)
+(defmacro with-open-domain ((domain folder &rest extension) &body body)
   `(call-with-open-domain (lambda (,domain ,folder) (declare (ignorable ,folder)) ,@body)
-                          ,clauses))
+                          ,@extension))
 
 (defun find-there-and-back (domain &rest options)
   (apply #'discrepancy:find-discrepancies 'discrepancy-finder-user::there-and-back :domain domain
@@ -181,6 +185,24 @@ name of the folder in which it is."
         (is (equal '("No sample of the initial state (robot-in r1) (box-in r1) was valid.")
                    (discrepancy:trace-result-warnings trace)))
         (is (search "from 1 initial state " (discrepancy:trace-result-reason trace)))))))
+
+(test drawers-may-be-open
+  "The robot drives to the table with any of three drawers open and the spoon in any of them."
+  (with-open-domain (domain folder "(:without drawers-start-closed spoon-starts-in-a-drawer)
+      (:axioms (spoon-in-some-drawer (initially (exists (?drawer) (in spoon ?drawer)))))"
+                     "models/kitchen/drawers-theory.lisp" "models/kitchen/drawers.lisp")
+    (let* ((result (discrepancy:find-discrepancies
+                    'discrepancy-finder-user::to-the-table :domain domain
+                    :constraint :any-action :rule :zero-failure :budget 30))
+           (trace (only-trace-result result))
+           (joints (loop for (run) in (discrepancy:trace-result-runs trace)
+                         append (mapcar #'cdr (discrepancy::sample-joints
+                                               (discrepancy:run-sample run))))))
+      (is (= 24 (length (discrepancy::trace-result-starts trace))))
+      (is (= 90 (length joints)))
+      (is (some #'zerop joints))
+      (is (every (lambda (position) (or (zerop position) (<= 0.3d0 position 0.4d0))) joints)
+          "the range of a drawer that is open goes beyond the joint's limit"))))
 
 ;;; The parts
 

@@ -91,7 +91,7 @@
     (let ((atom (parse-ground name clause pattern theory))
           (range (parse-range name clause range))
           (otherwise (and otherwise (parse-range name clause otherwise))))
-      (unless (and (stringp joint) (projection:scene-joint-p scene joint))
+      (unless (and (stringp joint) (projection:scene-joint scene joint))
         (abstraction-problem name clause "the scene has no joint ~s" joint))
       (when (and otherwise (<= (first otherwise) (second range)) (<= (first range)
                                                                      (second otherwise)))

@@ -162,6 +162,14 @@ are none."
                                   (ec:name-text (region-name (cdr (second held)))))))
           (t (placement-parameters (car (first held)) (cdr (first held)))))))
 
+(defun joint-parameter (scene joint min max)
+  "Return the PARAMETER of JOINT of SCENE, a name, between MIN and MAX as far as it goes: a range may
+go beyond its limits, for what is observed there."
+  (multiple-value-bind (lower upper) (projection:scene-joint-limits scene joint)
+    (flet ((within-limits (value)
+             (max (or lower value) (min (or upper value) value))))
+      (make-parameter joint :position (within-limits min) (within-limits max)))))
+
 (defun joint-parameters (domain trace)
   "Return the PARAMETERs of the joints that DOMAIN observes, by the initial state of TRACE."
   (let ((ranges (remove-if-not #'joint-range-p (domain-observers domain)))
@@ -174,7 +182,7 @@ are none."
           for (min max) = (if held
                               (list (joint-range-min held) (joint-range-max held))
                               (some #'joint-range-otherwise ours))
-          when min collect (make-parameter joint :position min max))))
+          when min collect (joint-parameter (domain-scene domain) joint min max))))
 
 (defun initial-parameters (domain trace)
   "Return the list of the PARAMETERs of DOMAIN that are sampled for TRACE: coordinates of bodies,

@@ -200,13 +200,20 @@ item's frame.  Signals UNKNOWN-BODY."
   "Return the name (a keyword) of SCENE's robot, or NIL if it has none."
   (and (scene-robot scene) (scene-part-name (scene-robot scene))))
 
-(defun scene-joint-p (scene name)
-  "Return true if a part of SCENE has a joint NAME, a string, that moves."
+(defun scene-joint (scene name)
+  "Return the joint NAME, a string, of a part of SCENE, a URDF-JOINT; NIL if there is none that
+moves."
   (loop for part in (scene-parts scene)
         thereis (find-if (lambda (joint)
                            (and (string= name (urdf-joint-name joint))
                                 (not (eq (urdf-joint-type joint) :fixed))))
                          (urdf-model-joints (scene-part-model part)))))
+
+(defun scene-joint-limits (scene name)
+  "Return the least and the greatest position (m or rad) of the joint NAME, a string, of SCENE, NIL
+for none."
+  (let ((joint (scene-joint scene name)))
+    (values (and joint (urdf-joint-lower joint)) (and joint (urdf-joint-upper joint)))))
 
 (defun scene-files (scene)
   "Return the names of the files that SCENE was read from: its own, those of its models and of their
