@@ -324,22 +324,20 @@ the numbers of paths and of concrete runs."
                    "a model that goes another way"))
             (length traces) runs)))))))
 
-(defparameter *random-plan-count* 300)
-
 (test random-plans-have-the-paths-that-brute-force-finds
-  (let ((domain (load-gadgets)) (paths 0) (runs 0))
-    (dotimes (seed *random-plan-count*)
+  (let ((domain (load-gadgets)) (count (if *long* 300 150)) (paths 0) (runs 0))
+    (dotimes (seed count)
       (multiple-value-bind (disagreement path-count run-count) (plan-disagreement domain seed)
         (incf paths path-count)
         (incf runs run-count)
         (is (null disagreement) "plan ~d: ~a~%~a" seed disagreement (random-plan-text seed))))
-    (is (< 3000 paths))
-    (is (< 50000 runs))))
+    (is (< (* 10 count) paths))
+    (is (< (* 160 count) runs))))
 
 (test random-plans-in-any-order-with-a-forgetful-oracle
   "Orders, and contexts of Z3 that are given up all the time, change nothing."
   (load-gadgets)
-  (dotimes (seed 20)
+  (dotimes (seed (if *long* 20 10))
     (with-file (file (random-plan-text seed))
       (let ((*error-output* (make-broadcast-stream)))
         (handler-bind ((warning #'muffle-warning)) (plan:load-plan file))))
