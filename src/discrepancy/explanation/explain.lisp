@@ -137,7 +137,8 @@ RUN has followed it so far, else that of success."
 
 (defun judged-runs (discrepancy runs context)
   "Return RUNS, valid runs of the trace of DISCREPANCY or pairs (run . judgement), as such pairs."
-  (loop for entry in runs
+  (loop with memory = (make-memory)
+        for entry in runs
         collect (if (consp entry)
                     entry
                     (cons entry
@@ -146,7 +147,7 @@ RUN has followed it so far, else that of success."
                                      :compare (discrepancy-compare discrepancy)
                                      :comparison (judgement-comparison
                                                   (discrepancy-judgement discrepancy))
-                                     :context context)))))
+                                     :context context :memory memory)))))
 
 (defun deciding-values (influences)
   "Return (parameter . value) for those of INFLUENCES that are of one parameter: what agrees."
