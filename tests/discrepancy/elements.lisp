@@ -9,7 +9,7 @@
 
 (defun domain-of-bowl-and-spoon ()
   "Return the domain, without its plans: those of other suites have functions of the same names."
-  (discrepancy:ensure-domain :bowl-and-spoon (root-file "models/kitchen/bowl-and-spoon.lisp")))
+  (discrepancy:ensure-domain :bowl-and-spoon))
 
 (defun going (place open-drawers &key from (report nil failed))
   "Return the transition of navigating to PLACE, from the place FROM, with OPEN-DRAWERS; it fails if

@@ -185,16 +185,6 @@ those whose check is done by the DEADLINE, a time (s) or NIL.  DECIDING is as fo
   "Return the runs in ENTRIES, a list of runs and of (run . judgement)."
   (loop for entry in entries collect (if (consp entry) (car entry) entry)))
 
-(defun known-runs (discrepancy)
-  "Return the runs of the same trace as DISCREPANCY that the search has made."
-  (plain-runs (if (slot-exists-p discrepancy 'runs)
-                  (slot-value discrepancy 'runs)
-                  '())))
-
-(defun other-runs (discrepancy)
-  "Return the runs of other traces than that of DISCREPANCY that the search has made."
-  (plain-runs (discrepancy-other-runs discrepancy)))
-
 (defun without-guesses (edits)
   "Return EDITS, best first, without the guesses where something better removes the discrepancy and
 contradicts nothing; else with the best two."
@@ -206,8 +196,8 @@ contradicts nothing; else with the best two."
         (let ((more (nthcdr 2 (remove-if-not #'guess-p edits))))
           (remove-if (lambda (edit) (member edit more)) edits)))))
 
-(defun candidate-edits (discrepancy &key (runs (append (known-runs discrepancy)
-                                                       (other-runs discrepancy)))
+(defun candidate-edits (discrepancy &key (runs (append (discrepancy-runs discrepancy)
+                                                       (discrepancy-other-runs discrepancy)))
                                       deciding guesses max-seconds)
   "Return the list of the EDITs of the theory that DISCREPANCY calls for, the best one first, each
 checked by judging again RUNS, a list of valid runs or of (RUN . JUDGEMENT) in the same domain, and

@@ -158,7 +158,7 @@ RUN has followed it so far, else that of success."
 (defparameter *part-for-runs* 2/3
   "This part of the time for an explanation is for runs; what is left of it is for edits.")
 
-(defun explain-discrepancy (discrepancy &key (runs (known-runs discrepancy)) (max-runs 30)
+(defun explain-discrepancy (discrepancy &key (runs (discrepancy-runs discrepancy)) (max-runs 30)
                                           max-seconds)
   "Return the EXPLANATION of DISCREPANCY.  RUNS are the valid runs of its trace so far, or pairs
 \(run . judgement).  At most MAX-RUNS further runs find out which coordinates decide; with 0 none
@@ -173,7 +173,7 @@ INVALID-ARGUMENT."
                       known
                       (append known (list (cons (discrepancy-run discrepancy)
                                                 (discrepancy-judgement discrepancy))))))
-           (others (other-runs discrepancy)))
+           (others (plain-runs (discrepancy-other-runs discrepancy))))
       (multiple-value-bind (influences probes count)
           (find-influences discrepancy known
                            :max-runs max-runs :context context

@@ -30,6 +30,7 @@
    (progress :initarg :progress :reader search-progress)
    (on-discrepancy :initarg :on-discrepancy :reader search-on-discrepancy)
    (context :initarg :context :reader search-context)
+   (memory :initform (make-memory) :reader search-memory)
    (phases :initform (make-phases) :reader search-phases)
    (meter :initform (make-meter) :reader search-meter)
    (iteration :initform 0 :accessor search-iteration

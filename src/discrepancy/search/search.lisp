@@ -19,6 +19,7 @@
 (defun judge (search run trace)
   "Return the judgement on RUN, made for TRACE."
   (judge-run (search-domain search) run trace :context (search-context search)
+                                              :memory (search-memory search)
                                               :compare (search-compare search)
                                               :comparison (search-comparison search)))
 
