@@ -197,6 +197,19 @@ that the way is blocked; 6 find before that the bowl is lost."
         (is (< 1 (count 1 kinds :key #'second) 15)))
       (is (equal '((:state :going (:holding)) 1) (found-kind 8)))))
 
+(test the-modified-plan-is-certified
+  "Twenty searches find nothing; by :SOUND each takes 917 simulations."
+  (if *long*
+      (loop for seed from 1 to 20
+            do (dolist (rule '(:paper :sound))
+                 (let ((result (df:find-discrepancies
+                                *closing* :domain (bowl-and-spoon :bowl-and-spoon-closing)
+                                :constraint :successful-navigation :confidence 0.99 :rule rule
+                                :seed seed :budget 10000)))
+                   (is (eq :certified (df:result-status result)) "~(~a~), seed ~d: ~a" rule seed
+                       (df:result-text result)))))
+      (skip "Only the long run tests this.")))
+
 (test what-blocks-the-way-is-named
   "The theory gets a precondition that speaks of the drawer, if there are runs enough that tell."
   (let* ((discrepancy (df:result-discrepancy
