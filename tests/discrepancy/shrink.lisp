@@ -194,6 +194,18 @@
           (is (equal (shrunk-steps smaller)
                      (shrunk-steps (df:shrinking-discrepancy shrinking)))))))))
 
+(test a-shrunk-discrepancy-has-the-arguments-of-its-plan
+  (let* ((original (df:result-discrepancy
+                    (df:find-discrepancies *find-object* :domain :table-top :budget 100
+                                           :arguments '((?object-type item))
+                                           :parameters '(:camera-field-of-view 0.9))))
+         (arguments (symbolic:trace-arguments (discrepancy:discrepancy-trace original))))
+    (is (= 1 (length arguments)))
+    (with-shrunk-file (file smaller original)
+      (is (equal arguments
+                 (symbolic:trace-arguments (discrepancy:discrepancy-trace smaller))))
+      (is (eq :same-bits (df:replay-status (df:replay file)))))))
+
 (test files-of-the-first-format-are-read
   (with-stored-discrepancy (file discrepancy)
     (edited file "discrepancy 2\"" "discrepancy 1\"")

@@ -160,9 +160,11 @@ after STEP differs from what CANDIDATES allow, or from EXPECTED, a state of the 
 
 (defun alternatives (domain solver candidates step)
   "Return what the theory has instead of a STEP whose outcome it forbids: the candidates after the
-outcomes that it allows, or CANDIDATES if there are none."
-  (or (next-candidates domain solver candidates
-                       (symbolic:action-outcomes domain (run-step-designator step)))
+outcomes that it allows, or CANDIDATES if there are none, or if they are not known, since STEP was
+read back."
+  (or (and (not (read-back-p step))
+           (next-candidates domain solver candidates
+                            (symbolic:action-outcomes domain (run-step-designator step))))
       candidates))
 
 (defun map-steps (function domain solver state steps trace comparison)

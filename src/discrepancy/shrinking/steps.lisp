@@ -69,8 +69,9 @@ or NIL if the theory does not allow it.  CONTEXT is a Z3 context."
                      for state in states
                      always (eq t (ec:holds (symbolic:outcome-condition (short-step-outcome step))
                                             (list state)))))
-      (symbolic:make-execution-trace :plan (symbolic:trace-plan trace) :steps trace-steps
-                                     :states states))))
+      (symbolic:make-execution-trace :plan (symbolic:trace-plan trace)
+                                     :arguments (symbolic:trace-arguments trace)
+                                     :steps trace-steps :states states))))
 
 (defun predicts-p (trace fluents)
   "Return true if the final state of TRACE has the values that the theory has in FLUENTS, those of a
