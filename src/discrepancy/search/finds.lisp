@@ -18,14 +18,17 @@
 
 (defun confirm-find (search discrepancy)
   "Run DISCREPANCY a second time, and note whether the bits are the same.  A run that was taken from
-the journal is replaced by the second one."
+the journal is replaced by the second one, also among those of the search."
   (let ((again (in-phase (search :confirm)
                  (simulate search (discrepancy-sample discrepancy)
                            (discrepancy-trace discrepancy))))
         (run (discrepancy-run discrepancy)))
     (setf (discrepancy-confirmed-p discrepancy) (= (run-hash run) (run-hash again)))
     (when (and (discrepancy-confirmed-p discrepancy) (journaled-p run))
-      (setf (discrepancy-run discrepancy) again))))
+      (setf (discrepancy-run discrepancy) again
+            (discrepancy-runs discrepancy)
+            (loop for (own . judgement) in (discrepancy-runs discrepancy)
+                  collect (cons (if (eq own run) again own) judgement))))))
 
 (defun remaining-time (search)
   "Return the arguments that keep a phase of SEARCH within the time that is left of its limit."
