@@ -56,6 +56,7 @@ search, replay.")
    #:result-phases #:result-seconds #:result-solver-seconds #:result-reused #:result-stopped
    #:search-phase #:phase-name #:phase-simulations #:phase-simulation-seconds #:phase-seconds
    #:result-statement #:trace-result-statement #:trace-result-bound
+   #:trace-result-starts-text
    #:request-stop #:stop-search
    #:skip-sample #:retry-sample #:abort-trace
    #:trace-result #:run-trace #:trace-result-status #:trace-result-trace #:trace-result-verdict

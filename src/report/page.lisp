@@ -180,7 +180,8 @@ discrepancy."
 
 ;;; Traces without discrepancies
 
-(defun trace-section (number trace-json shots domain trace)
+(defun trace-section (number trace-json shots domain trace starts)
+  "Return the section of TRACE; STARTS is a text of what is open of its initial state, or NIL."
   `(:section (:id ,(format nil "trace-~d" number))
      (:h2 () ,(format nil "Trace ~d: ~a" number (key trace-json "status")))
      (:p () ,(format nil "~a.  ~d simulation~:p agree~:*~[~;s~:;~] with the theory~@[, ~d ~
@@ -188,6 +189,7 @@ discrepancy."
                      (capitalized (key trace-json "reason")) (key trace-json "samples")
                      (positive (key trace-json "rejected"))
                      (positive (key trace-json "left_trace"))))
+     ,@(and starts `((:p () ,(format nil "Valid samples by what is open initially: ~a." starts))))
      (:p () ,(format nil "Whatever the rule says: ~a." (key trace-json "statement")))
      ,(loop for warning across (key trace-json "warnings")
             collect `(:p (:class "warning") ,warning))
@@ -216,7 +218,8 @@ discrepancy."
         unless (discrepancy:trace-result-discrepancies trace-result)
           collect (trace-section number trace-json (trace-shots result trace-result)
                                  (discrepancy:result-domain result)
-                                 (discrepancy:trace-result-trace trace-result))))
+                                 (discrepancy:trace-result-trace trace-result)
+                                 (discrepancy:trace-result-starts-text trace-result))))
 
 (defun page-node (result object command)
   "Return the page of RESULT, whose JSON is OBJECT."

@@ -103,12 +103,13 @@ and simulation part, both final states, and how COMMAND replays it."
          (format nil "~a % of the samples drawn were valid"
                  (percent-text (/ (floor (* 1000 rate)) 1000d0))))))
 
-(defun starts-text (starts)
-  "Return a text of STARTS, if there are several: in which fluents they differ, and how many samples
-of each were valid; else NIL."
-  (let ((states (loop for start in starts
-                      collect (ec:state-fluents (symbolic:trace-initial-state
-                                                 (start-trace start))))))
+(defun trace-result-starts-text (result)
+  "Return a text of the initial states that the samples of RESULT were drawn from, if there are
+several: in which fluents they differ, and how many samples of each were valid; else NIL."
+  (let* ((starts (trace-result-starts result))
+         (states (loop for start in starts
+                       collect (ec:state-fluents (symbolic:trace-initial-state
+                                                  (start-trace start))))))
     (flet ((everywhere-p (atom)
              (every (lambda (state) (member atom state :test #'equal)) states)))
       (and (rest starts)
@@ -129,7 +130,7 @@ of each were valid; else NIL."
             (let ((rejected (trace-result-rejected result))) (and (plusp rejected) rejected))
             (let ((left (trace-result-left-trace result))) (and (plusp left) left)))
     (format stream "~@[    valid samples by what is open initially: ~a~%~]"
-            (starts-text (trace-result-starts result)))
+            (trace-result-starts-text result))
     (unless (eq (trace-result-status result) :discrepancy)
       (format stream "    sound: ~a~%" (trace-result-statement result confidence)))
     (format stream "~{    warning: ~a~%~}" (trace-result-warnings result))))

@@ -163,8 +163,10 @@ if it is not there.  Counts as a simulation."
      "format" *journal-format*
      "plan" (text (plan:plan-name (search-plan search)))
      "domain" (text (symbolic:action-theory-name (search-domain search)))
+     ;; Without their names, which depend on the working directory.
      "files" (loop for file in (source-files (search-plan search) (search-domain search))
-                   collect (cons file (json-or-null (file-hash file))))
+                   collect (json-or-null (file-hash file)) into hashes
+                   finally (return (coerce hashes 'simple-vector)))
      "constraint" (text (search-constraint search))
      "parameters" (text (search-parameters search))
      "arguments" (text arguments)
