@@ -32,6 +32,7 @@
   (- (expm1 (/ (log1p (- (/ alpha (* look (1+ look))))) outputs))))
 
 (defun dot (a b)
+  (declare (type (simple-array double-float (*)) a b) (optimize speed (safety 1)))
   (loop for x across a for y across b sum (* x y) of-type double-float))
 
 (defun corner-intervals (bands bounds factors)

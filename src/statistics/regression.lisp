@@ -170,14 +170,17 @@ other or are more than the observations."
 
 (defun band-leverage (band point)
   "Return x'(X'X)^-1 x of BAND for the vector POINT = x, the intercept's 1 included and last."
-  (loop with factor = (band-factor band)
-        with order = (band-order band)
+  (declare (type (simple-array double-float (*)) point) (optimize speed (safety 1)))
+  (loop with factor of-type matrix = (band-factor band)
+        with order of-type simple-vector = (band-order band)
+        with diagonal of-type (simple-array double-float (*)) = (band-diagonal band)
         with solved = (make-array (length order) :element-type 'double-float)
-        for row below (length order)
-        for value = (/ (- (aref point (aref order row))
-                          (loop for column below row
-                                sum (* (aref factor column row) (aref solved column))
-                                  of-type double-float))
-                       (aref (band-diagonal band) row))
+        for row of-type fixnum below (length order)
+        for value of-type double-float
+          = (/ (- (aref point (the fixnum (aref order row)))
+                  (loop for column of-type fixnum below row
+                        sum (* (aref factor column row) (aref solved column))
+                          of-type double-float))
+               (aref diagonal row))
         do (setf (aref solved row) value)
         sum (* value value) of-type double-float))

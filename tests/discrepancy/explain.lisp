@@ -93,7 +93,9 @@
     (is (null (search "of-the-run" text)) "names that tell the run are shown: ~a" text)
     (is (null (search "in-the-run" text)) "names that tell the run are shown: ~a" text)
     (signals-with (discrepancy:invalid-argument "max-runs")
-      (discrepancy:explain-discrepancy discrepancy :max-runs -1))))
+      (discrepancy:explain-discrepancy discrepancy :max-runs -1))
+    (signals-with (discrepancy:invalid-argument "max-seconds" "a number of seconds")
+      (discrepancy:explain-discrepancy discrepancy :max-seconds "1"))))
 
 (test an-event-that-the-theory-forbids
   "Success is forbidden by a precondition: the robot picks up a box that is not there."

@@ -166,6 +166,8 @@ are made.  None is begun after two thirds of MAX-SECONDS (NIL: no limit), and ed
 far as they are checked when these are over.  EXPLANATION-TEXT tells it in words.  Signals
 INVALID-ARGUMENT."
   (check-argument 'max-runs max-runs (typep max-runs '(integer 0)) "an integer from 0 on")
+  (check-argument 'max-seconds max-seconds (typep max-seconds '(or null (real 0)))
+                  "a number of seconds or nil")
   (z3:with-context (context)
     (let* ((start (foreign:monotonic-seconds))
            (known (judged-runs discrepancy runs context))
