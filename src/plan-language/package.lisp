@@ -19,6 +19,7 @@ perform.")
    #:def-cram-function #:def-top-level-cram-function #:def-plan
    #:plan #:plan-name #:plan-lambda-list #:plan-body #:plan-documentation #:plan-position
    #:plan-top-level-p #:find-plan #:current-plan-name #:plan-source #:plans-in-files
+   #:plans-mentioned
    #:method-source #:load-plan #:*closure-evaluator* #:*plan-locator*
    #:ensure-top-level #:call-in-implicit-top-level
    ;; goals

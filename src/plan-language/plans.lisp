@@ -73,6 +73,22 @@ have them, and are not out of date; in no particular order."
                   (eq plan (plan-source (plan-name plan))))
           collect plan))
 
+(defun plans-mentioned (plan)
+  "Return the list of PLAN and of the plans and helpers that its source mentions, and theirs."
+  (let ((found '()))
+    (labels ((visit (plan)
+               (unless (member plan found :test #'eq)
+                 (push plan found)
+                 (walk (plan-lambda-list plan))
+                 (walk (plan-body plan))))
+             (walk (form)
+               (cond ((consp form) (walk (car form)) (walk (cdr form)))
+                     ((and form (symbolp form))
+                      (let ((other (plan-source form)))
+                        (when other (visit other)))))))
+      (visit plan))
+    (reverse found)))
+
 (defun record-plan (plan)
   (unless (or (plan-helper-p plan) (eq *noted-plans* :none))
     (push plan *noted-plans*))

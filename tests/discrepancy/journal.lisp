@@ -98,6 +98,26 @@
   (signals-with (discrepancy:journal-error "/no/such/folder" "cannot be written")
     (find-in-example 0.8 :resume "/no/such/folder/j.jsonl")))
 
+(test a-run-depends-on-the-files-that-a-plan-loads
+  (with-folder (folder)
+    (flet ((file (name text)
+             (with-open-file (stream (format nil "~a~a" folder name) :direction :output)
+               (format stream "(in-package #:discrepancy-finder-user)~%~a" text))
+             (format nil "~a~a" folder name)))
+      (file "below.lisp" "(defun a-number-below () (a-number-above)) (defun a-number-above () 1)")
+      (file "beside.lisp" "(def-cram-function not-mentioned () nil)")
+      (file "middle.lisp" "(load-plan (merge-pathnames \"below.lisp\" *load-truename*))
+                           (load-plan (merge-pathnames \"beside.lisp\" *load-truename*))
+                           (def-cram-function middle-plan () (funcall #'a-number-below))")
+      (let ((plan (first (last (plan:load-plan
+                                (file "upper.lisp" "(load-plan (merge-pathnames \"middle.lisp\"
+                                                                              *load-truename*))
+                                                    (def-top-level-cram-function upper-plan ()
+                                                      (middle-plan))"))))))
+        (is (equal '("upper" "middle" "below" "domain")
+                   (loop for name in (discrepancy::source-files plan (two-regions))
+                         repeat 4 collect (pathname-name name))))))))
+
 (test a-line-that-was-cut-off-is-run-again
   (with-journal-file (file)
     (let* ((whole (find-in-example 0.8 :resume file))

@@ -27,9 +27,10 @@
 
 (defun source-files (plan domain)
   "Return the names of the files that the runs of PLAN in DOMAIN depend on."
-  (remove nil (cons (plan-file plan)
-                    (append (domain-files domain)
-                            (projection:scene-files (domain-scene domain))))))
+  (remove-duplicates (remove nil (append (mapcar #'plan-file (plan:plans-mentioned plan))
+                                         (domain-files domain)
+                                         (projection:scene-files (domain-scene domain))))
+                     :test #'equal :from-end t))
 
 ;;; Writing
 
