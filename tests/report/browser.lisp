@@ -38,8 +38,10 @@ seen.cut = all('td, th, p, li, dd, pre').filter((element) => element.scrollWidth
                   && getComputedStyle(element).overflowX == 'visible'
                   && getComputedStyle(element).display != 'inline').map((e) => e.innerText);
 seen.passedColor = getComputedStyle(document.querySelector('.axis, .frame')).stroke;
-seen.requests = performance.getEntriesByType('resource').map((entry) => entry.name);
-document.getElementById('seen').textContent = JSON.stringify(seen);
+// When all that was asked for has come, or has not.
+addEventListener('load', () => {
+  seen.requests = performance.getEntriesByType('resource').map((entry) => entry.name);
+  document.getElementById('seen').textContent = JSON.stringify(seen); });
 </script>
 </body>"
   "Put at the end of a page.")
