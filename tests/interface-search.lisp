@@ -124,6 +124,28 @@ the end to /dev/full."
   (complains ("explore" "move-the-box" "--domain" "nowhere") "nowhere" "two-regions-minimal")
   (complains ("explore" "no-such-plan" "--domain" "kitchen") "no-such-plan" "move-the-box"))
 
+(defparameter *two-ways* "(in-package #:discrepancy-finder-user)
+(def-cram-function go-to (?place) (perform (a motion (type going) (pose ?place))))
+(def-top-level-cram-function one-way () (go-to (make-pose 0.5 0 0)))
+(def-top-level-cram-function other-way () (go-to (make-pose 1.5 0 0)))"
+  "A file of two top-level plans.")
+
+(test refine-takes-names-after-a-file
+  (with-file (file *two-ways*)
+    (flet ((plans (&rest arguments)
+             (mapcar #'symbol-name (df::plan-arguments arguments))))
+      (is (equal '("ONE-WAY") (plans file "one-way")))
+      (is (equal '("MOVE-THE-BOX" "OTHER-WAY" "ONE-WAY" "MOVE-THE-BOX")
+                 (plans "move-the-box" file "other-way" "one-way" "move-the-box"))))
+    (complains ("refine" file "--domain" "two-regions") file "name one of one-way, other-way.")
+    (complains ("refine" file "move-the-box" "--domain" "two-regions") "name one of")
+    (complains ("refine" "--domain" "two-regions") "A plan is missing.")
+    (multiple-value-bind (output errors status)
+        (df-command "refine" file "other-way" "--domain" "two-regions")
+      (is (search "no discrepancy is left along other-way" output))
+      (is (string= "" errors))
+      (is (= 0 status)))))
+
 (test every-subcommand-has-help
   (let ((output (df-command "--help")))
     (dolist (name '("demo" "find" "explore" "verify" "simulate" "replay" "explain" "shrink"

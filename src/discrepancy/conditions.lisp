@@ -51,10 +51,14 @@ of another search."))
   ((name :initarg :name :reader invalid-argument-name :documentation "The argument's name.")
    (value :initarg :value :reader invalid-argument-value :documentation "What was given.")
    (expected :initarg :expected :reader invalid-argument-expected
-             :documentation "What was expected, as a string."))
+             :documentation "What was expected, as a string.")
+   (reason :initarg :reason :initform nil
+           :documentation "What is wrong, as a clause, where that is plainer; or NIL."))
   (:report (lambda (condition stream)
-             (with-slots (name value expected) condition
-               (format stream "~(~a~) is ~s where ~a was expected." name value expected))))
+             (with-slots (name value expected reason) condition
+               (if reason
+                   (format stream "~(~a~) is ~s, but ~a." name value reason)
+                   (format stream "~(~a~) is ~s where ~a was expected." name value expected)))))
   (:documentation "Signaled when a search is asked for with an impossible argument."))
 
 (define-condition discrepancy-found (condition)

@@ -17,7 +17,7 @@ them and why, and what they say of a state after known events.")
    #:sort-terms
    #:axiom #:axiom-name #:axiom-label #:axiom-formula #:axiom-position
    ;; pieces of a run: what a state alone decides
-   #:about-the-beginning-p #:self-contained-p #:formula-form
+   #:about-the-beginning-p #:self-contained-p #:formula-form #:effect-conditions
    ;; revised theories
    #:revised-theory #:effect-axioms #:event-axioms #:state-axioms
    ;; names and atoms

@@ -90,11 +90,15 @@ status."
       (uiop:string-suffix-p (string-downcase text) ".lisp")
       (and (string/= text "") (uiop:file-exists-p (uiop:parse-native-namestring text)))))
 
+(defun plans-named (plans name)
+  "Return those of PLANS that the text NAME names."
+  (remove name plans :key (lambda (plan) (symbol-name (plan:plan-name plan)))
+                     :test-not #'string-equal))
+
 (defun plan-among (plans file name)
   "Return the one of PLANS, which FILE defines, that NAME means; NIL means the only top-level one."
   (let ((candidates (if name
-                        (remove name plans :key (lambda (plan) (symbol-name (plan:plan-name plan)))
-                                           :test-not #'string-equal)
+                        (plans-named plans name)
                         (remove-if-not #'plan:plan-top-level-p plans))))
     (cond ((null candidates)
            (usage-problem "~a defines no ~:[top-level plan~;plan named ~:*~a~]." file name))
@@ -103,6 +107,10 @@ status."
                           file (mapcar #'plan:plan-name candidates)))
           (t (plan:plan-name (first candidates))))))
 
+(defun plans-of-file (file)
+  "Return the list of the plans that FILE, an argument, defines."
+  (plan:load-plan (or (discrepancy:locate-file file) file)))
+
 (defun plan-argument (arguments)
   "Return the symbol of the plan that ARGUMENTS name: a file and, where it defines several
 top-level plans, a name; or a name."
@@ -110,10 +118,26 @@ top-level plans, a name; or a name."
     (cond ((null file) (usage-problem "A plan is missing."))
           (more (usage-problem "There are too many arguments: ~{~a~^ ~}." more))
           ((file-argument-p file)
-           (plan-among (plan:load-plan (or (discrepancy:locate-file file) file)) file name))
+           (plan-among (plans-of-file file) file name))
           (name (usage-problem "There is an argument too many: ~a." name))
           (t (plan:plan-name (discrepancy:ensure-plan
                               (intern (string-upcase file) '#:discrepancy-finder-user)))))))
+
+(defun plan-arguments (arguments)
+  "Return the list of the symbols of the plans that ARGUMENTS name, each as for PLAN-ARGUMENT; after
+a file there may be the names of several of its plans."
+  (when (null arguments)
+    (usage-problem "A plan is missing."))
+  (loop with rest = arguments
+        for argument = (pop rest)
+        append (if (file-argument-p argument)
+                   (let ((plans (plans-of-file argument)))
+                     (loop for name in (or (loop while (and rest (plans-named plans (first rest)))
+                                                 collect (pop rest))
+                                           '(nil))
+                           collect (plan-among plans argument name)))
+                   (list (plan-argument (list argument))))
+        while rest))
 
 (defun domain-argument (options)
   "Return the domain that --domain names: a file, a folder with a domain.lisp, or a name."

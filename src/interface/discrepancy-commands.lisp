@@ -76,7 +76,7 @@ print the text that it returns, else the replay.  Return the exit status."
    arguments "shrink"))
 
 (define-subcommand "refine" (arguments options)
-    ("PLAN ... --domain DOMAIN [OPTION ...]"
+    ("PLAN [NAME ...] ... --domain DOMAIN [OPTION ...]"
      "Find discrepancies and apply the best edit until none is found."
      (("domain") :type string :documentation "name of a domain, or its file or folder")
      (("constraint") :type string :documentation "name of the state constraint (any-action)")
@@ -84,8 +84,7 @@ print the text that it returns, else the replay.  Return the exit status."
      (("seed") :type integer :documentation "seed of the samples (1)")
      (("set") :type string :list t :optional t
       :documentation "scene parameter, as name=number; may be repeated"))
-  (let* ((plans (or (loop for argument in arguments collect (plan-argument (list argument)))
-                    (usage-problem "A plan is missing.")))
+  (let* ((plans (plan-arguments arguments))
          (domain (domain-argument options))
          (edits 0)
          (arguments (append (loop for key in '(:edits :seed)

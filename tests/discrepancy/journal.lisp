@@ -129,3 +129,27 @@
         (is (equal (outline whole) (outline again)))
         (is (= 1 count)))
       (is (string= text (uiop:read-file-string file))))))
+
+(test a-damaged-line-is-told
+  (with-journal-file (file)
+    (let ((whole (outline (find-in-example 0.8 :resume file)))
+          (lines (uiop:read-file-lines file)))
+      (flet ((refused (damaged)
+               "Check what a search says whose third line is the text that DAMAGED makes of it."
+               (with-open-file (stream file :direction :output :if-exists :supersede)
+                 (format stream "~{~a~%~}"
+                         (append (subseq lines 0 2) (list (funcall damaged (third lines)))
+                                 (nthcdr 3 lines))))
+               (signals-with (discrepancy:journal-error file "line 3 is no run of a search")
+                 (find-in-example 0.8 :resume file)))
+             (without (part line)
+               (let ((start (search part line)))
+                 (concatenate 'string (subseq line 0 start)
+                              (subseq line (+ start (length part)))))))
+        (refused (lambda (line) (subseq line 0 (- (length line) 9))))
+        (refused (lambda (line) (without "\"hash\":" line)))
+        (refused (lambda (line) (without "\"key\":" line)))
+        (refused (lambda (line) (substitute #\x #\1 line :start (search "\"initial\":" line)))))
+      (with-open-file (stream file :direction :output :if-exists :supersede)
+        (format stream "~{~a~%~}" lines))
+      (is (equal whole (outline (find-in-example 0.8 :resume file)))))))

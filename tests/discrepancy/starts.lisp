@@ -131,6 +131,25 @@ file THEORY by CLAUSES, a text; and with the name of the folder in which it is."
         (report:write-report result page)
         (is (search "box-follows" (uiop:read-file-string page)))))))
 
+(test only-what-acted-is-taken-out
+  "This theory believes that a box in the region that the robot leaves comes along.  That the robot
+carries what it holds has no say where it only drives."
+  (with-open-domain (domain folder "(:without box-starts-in-r2)
+      (:axioms
+       (drags-there (implies (holds-at (box-in r1) ?time)
+                             (initiates (move r2) (box-in r2) ?time)))
+       (drags-away (implies (holds-at (box-in r1) ?time)
+                            (terminates (move r2) (box-in r1) ?time))))")
+    (let* ((discrepancy (discrepancy:result-discrepancy
+                         (find-there-and-back domain :rule :sound)))
+           (edit (first (discrepancy:candidate-edits discrepancy))))
+      (is (eq :weaken (discrepancy:edit-kind edit)))
+      (is (equal '(:drags-away :drags-there)
+                 (sort (copy-list (discrepancy:edit-replaced edit)) #'string<)))
+      (is (null (discrepancy:edit-sentences edit)))
+      (is-true (discrepancy:edit-removes-p edit))
+      (is (zerop (discrepancy:edit-contradicted edit))))))
+
 (test starts-as-json
   (with-open-domain (domain folder "(:without box-starts-in-r2)")
     (let* ((result (find-there-and-back domain :budget 10))

@@ -28,7 +28,10 @@
       (is (eq :verified (symbolic:verification-verdict verification)) "~a" verification)
       (is (null (symbolic:verification-counterexample verification)))
       (is (null (symbolic:verification-bounds verification)))
-      (is (search "verified on all 2 paths" (princ-to-string verification))))))
+      (is (search "verified on all 2 paths" (princ-to-string verification)))))
+  (is (search "verified on its only path"
+              (princ-to-string (verify-text "(def-top-level-cram-function lamp-plan () 1)"
+                                            :no-failure)))))
 
 (test what-is-violated-has-a-shortest-counterexample
   (let* ((verification (verify-text *careful-plan* '(not (holds-at (broken a) (+ ?time 1)))))

@@ -92,6 +92,19 @@ ATOM the truth value VALUE."
           (ec:effect-axioms theory (effect-predicate value) (first (transition-event transition))
                             (first atom))))
 
+(defun acting-axiom-names (domain known value transition atom)
+  "Return those of the names KNOWN, of axioms, by which the event of TRANSITION can have given ATOM
+the truth value VALUE: their conditions were not seen to be false before."
+  (let ((acting (loop for (name . condition)
+                        in (ec:effect-conditions (symbolic:action-theory-ground domain)
+                                                 (effect-predicate value)
+                                                 (transition-event transition) atom)
+                      when (or (null condition)
+                               (formula-truth (symbolic:action-theory-theory domain) condition
+                                              (transition-before transition) '()))
+                        collect name)))
+    (remove-if-not (lambda (name) (member name acting)) known)))
+
 (defun missing-effect-repairs (domain transitions change)
   "Return the repairs for an effect that the simulation has and the theory has not."
   (let* ((theory (symbolic:action-theory-theory domain))
@@ -131,22 +144,25 @@ gave the truth value VALUE, or NIL."
               do (return-from supporting-transition (values transition fluent))))))
 
 (defun wrong-effect-repairs (domain transitions change)
-  "Return the repairs for an effect that the theory has and the simulation has not."
+  "Return the repairs for an effect that the theory has and the simulation has not.  Of the
+axioms that state it those are wrong that acted in the transition."
   (let* ((theory (symbolic:action-theory-theory domain))
          (transition (change-transition change))
          (atom (change-atom change))
          (value (not (change-seen change)))
          (event-name (first (transition-event transition)))
-         (known (effect-axiom-names theory value transition atom)))
-    (when known
+         (known (effect-axiom-names theory value transition atom))
+         (wrong (acting-axiom-names domain known value transition atom)))
+    (when wrong
       (multiple-value-bind (support instance)
           (supporting-transition transitions event-name atom value)
         (multiple-value-bind (sentences consistent)
             (and support (effect-hypotheses domain transitions support instance value))
           (append
            (loop for sentence in (and consistent sentences)
-                 collect (list :effect (list (list (first known) sentence)) known))
-           (list (list :weaken '() known))
+                 collect (list :effect (list (list (first wrong) sentence)) wrong))
+           (list (list :weaken '() wrong))
+           ;; What leaves the fluent open must not meet another effect on it.
            (let* ((lifting (lifting theory (list (cons :event (transition-event transition))
                                                  (cons :fluent atom))))
                   (event (lifted theory (transition-event transition) :event lifting))

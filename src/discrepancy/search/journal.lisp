@@ -13,8 +13,9 @@
   "The value of \"format\" in the headers of journals.")
 
 (defstruct (journal (:copier nil))
-  "The open STREAM to which runs are written, and the LINES that were there, by their keys.  ATOMS
-are those of the observed fluents, in their order."
+  "The FILE, its open STREAM, to which runs are written, and the LINES that were there, each (text .
+number), by their keys.  ATOMS are those of the observed fluents, in their order."
+  (file "" :type string :read-only t)
   (stream nil :read-only t)
   (lines (make-hash-table :test #'equal) :read-only t)
   (atoms '() :type list :read-only t))
@@ -126,20 +127,37 @@ are those of the observed fluents, in their order."
   (format nil "~a ~(~a~) ~d" (hash-text (start-content (drawn-start draw))) (drawn-origin draw)
           (sample-index (drawn-sample draw))))
 
+(defun refuse-line (file number &optional condition)
+  "Signal JOURNAL-ERROR for line NUMBER of FILE, which CONDITION, an error, says is none."
+  (error 'journal-error :file file
+                        :reason (format nil "line ~d is no run of a search~@[ (~a)~]" number
+                                        (and condition
+                                             (string-right-trim
+                                              "." (source:condition-sentence condition))))))
+
+(defun run-of-line (line search draw)
+  "Return the run of DRAW and the judgement on it (NIL for none) that LINE, of the journal of SEARCH,
+tells."
+  (let ((object (json:parse line))
+        (ground (symbolic:action-theory-ground (search-domain search))))
+    (values (run-from-json (json:get-key object "run") (drawn-sample draw) ground
+                           (journal-atoms (search-journal search)))
+            (judgement-from-json (json:get-key object "judgement") ground
+                                 (search-comparison search)))))
+
 (defun journaled-run (search draw)
   "Return the run of DRAW and the judgement on it (NIL for none) from the journal of SEARCH, or NIL
-if it is not there.  Counts as a simulation."
+if it is not there.  Counts as a simulation.  Signals JOURNAL-ERROR."
   (let* ((journal (search-journal search))
          (line (and journal (gethash (line-key draw) (journal-lines journal)))))
     (when line
-      (let* ((object (json:parse line))
-             (ground (symbolic:action-theory-ground (search-domain search)))
-             (run (run-from-json (json:get-key object "run") (drawn-sample draw) ground
-                                 (journal-atoms journal))))
+      (multiple-value-bind (run judgement)
+          (handler-case (run-of-line (car line) search draw)
+            (error (condition)
+              (refuse-line (journal-file journal) (cdr line) condition)))
         (when (eq (run-validity run) :valid)
           (count-simulation))
-        (values run (judgement-from-json (json:get-key object "judgement") ground
-                                         (search-comparison search)))))))
+        (values run judgement)))))
 
 (defun write-line-whole (stream object)
   (write-line (json:encode object) stream)
@@ -211,14 +229,15 @@ line is cut off from the file."
   "Put the lines of FILE, whose header must be HEADER, into TABLE."
   (destructuring-bind (first . lines) (whole-lines (source:native-path file))
     (check-header file first header)
-    (dolist (line lines)
-      ;; The key is the first thing in a line.
-      (let* ((start (search "\"key\":" line))
-             (open (and start (position #\" line :start (+ start 6))))
-             (close (and open (position #\" line :start (1+ open)))))
-        (unless close
-          (error 'journal-error :file file :reason "a line of it is no run"))
-        (setf (gethash (subseq line (1+ open) close) table) line)))))
+    (loop for line in lines
+          for number from 2
+          ;; The key is the first thing in a line.
+          for start = (search "\"key\":" line)
+          for open = (and start (position #\" line :start (+ start 6)))
+          for close = (and open (position #\" line :start (1+ open)))
+          do (unless close
+               (refuse-line file number))
+             (setf (gethash (subseq line (1+ open) close) table) (cons line number)))))
 
 (defun call-with-journal (search file arguments paths function)
   (if (null file)
@@ -238,7 +257,7 @@ line is cut off from the file."
               (unless old
                 (write-line-whole stream header))
               (setf (slot-value search 'journal)
-                    (make-journal :stream stream :lines lines
+                    (make-journal :file name :stream stream :lines lines
                                   :atoms (observed-atoms
                                           (domain-observers (search-domain search)))))
               (funcall function))

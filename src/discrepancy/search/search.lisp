@@ -160,9 +160,11 @@ SEARCH-FUNCTION returns where it has to end."
   (let ((constraint (symbolic:exploration-constraint exploration)))
     (if (symbolp constraint) constraint (ec:state-constraint-name constraint))))
 
-(defun check-argument (name value test expected)
+(defun check-argument (name value test expected &optional reason)
+  "Signal INVALID-ARGUMENT unless TEST is true.  Its report is what was EXPECTED, or REASON, a clause,
+if there is one."
   (unless test
-    (error 'invalid-argument :name name :value value :expected expected)))
+    (error 'invalid-argument :name name :value value :expected expected :reason reason)))
 
 (defun check-search-names (plan constraint rule parameters max-paths)
   (check-argument 'plan plan (and plan (symbolp plan)) "the name of a plan")
@@ -178,9 +180,9 @@ SEARCH-FUNCTION returns where it has to end."
   (check-argument 'sampler sampler (member sampler *samplers*)
                   ":independent, :stratified, :sobol or :corners")
   (check-argument 'targets targets (or (not targets) (not (member rule '(:paper :paper-sd))))
-                  "nil, since the rule wants independent samples alone,")
+                  "nil" (format nil "the rule ~(~a~) takes no targets" rule))
   (check-argument 'delta delta (or (null delta) (member rule '(:zero-failure :sound)))
-                  (format nil "nil, since the rule ~(~a~) takes none," rule))
+                  "nil" (format nil "the rule ~(~a~) takes no delta" rule))
   (check-argument 'budget budget (typep budget '(integer 1)) "a positive integer")
   (check-argument 'seconds seconds (typep seconds '(or null (real (0)))) "a positive number or nil")
   (check-argument 'keep-going keep-going (typep keep-going '(or boolean (integer 1)))

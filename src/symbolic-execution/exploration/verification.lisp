@@ -36,7 +36,7 @@ allows), or :VERIFIED-UP-TO-BOUNDS, see VERIFICATION-BOUNDS."
       (:counterexample
        (format nil "violated after ~d step~:p" (length (trace-steps trace))))
       (:verified
-       (format nil "verified on all ~d path~:p"
+       (format nil "verified on ~[no path~;its only path~:;all ~:*~d paths~]"
                (exploration-paths (verification-exploration verification))))
       (:verified-up-to-bounds
        (format nil "verified on ~d path~:p, up to bounds"
