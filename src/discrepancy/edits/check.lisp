@@ -185,6 +185,12 @@ those whose check is done by the DEADLINE, a time (s) or NIL.  DECIDING is as fo
   "Return the runs in ENTRIES, a list of runs and of (run . judgement)."
   (loop for entry in entries collect (if (consp entry) (car entry) entry)))
 
+(defun without-futile (edits)
+  "Return EDITS without those that do not remove the discrepancy, if others do."
+  (if (some #'edit-removes-p edits)
+      (remove-if-not #'edit-removes-p edits)
+      edits))
+
 (defun without-guesses (edits)
   "Return EDITS, best first, without the guesses where something better removes the discrepancy and
 contradicts nothing; else with the best two."
@@ -204,12 +210,12 @@ checked by judging again RUNS, a list of valid runs or of (RUN . JUDGEMENT) in t
 the run of DISCREPANCY itself.  By default RUNS are those that the search had made, of this trace
 and of earlier ones.  DECIDING is a list of (parameter . value) of what is known to decide: with the
 value, all else as in DISCREPANCY, theory and simulation agree.  With GUESSES preconditions of what
-has succeeded in no run are not left out.  What is not checked within MAX-SECONDS (NIL: no limit) is
-not in the list."
+has succeeded in no run are not left out; those that do not remove the discrepancy are, if others
+do.  What is not checked within MAX-SECONDS (NIL: no limit) is not in the list."
   (let* ((deadline (and max-seconds (+ (foreign:monotonic-seconds) max-seconds)))
          (run (discrepancy-run discrepancy))
          (runs (adjoin run (plain-runs runs)))
          (edits (z3:with-context (context)
                   (edits-for-run (discrepancy-domain discrepancy) run runs context
                                 :deciding deciding :deadline deadline))))
-    (if guesses edits (without-guesses edits))))
+    (without-futile (if guesses edits (without-guesses edits)))))
