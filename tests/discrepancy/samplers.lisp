@@ -77,3 +77,15 @@ in each of 16 x 16 cells."
                                                                        :seed 8)))))
   (signals-with (df:invalid-argument "sampler" "HALTON")
     (search-with :halton :paper)))
+
+(test the-region-that-was-seen-is-told
+  "A corner of region r2 is drawn as its bound, x = 2 m, which is in no region; the box settles
+within r2."
+  (let ((run (run-of (example-trace) 0.5 0 -0.1 2 0.38 -3.14159)))
+    (is (member '(:box-in :r2) (discrepancy::observed-fluents (discrepancy:run-initial-state run))
+                :test #'equal))
+    (is (null (symbolic:region-of-pose (two-regions) (geometry:make-pose 2 0.38 0))))
+    (let ((text (with-output-to-string (stream)
+                  (discrepancy::describe-sample (two-regions) run stream))))
+      (is (search "box.x = 2.0000 m" text))
+      (is (search "box is in r2" text)))))

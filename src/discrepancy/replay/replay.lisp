@@ -232,7 +232,7 @@ same, and, if STEPS, what theory and simulation have of each action, side by sid
         (format stream "  ~a has changed since~%" file))
       (when (replay-discrepancy result)
         (describe-shrinking (replay-discrepancy result) stream))
-      (describe-sample (case-run-domain compared) (run-sample run) stream)
+      (describe-sample (case-run-domain compared) run stream)
       (cond ((not (eq (run-validity run) :valid))
              (format stream "  the initial state is not valid any more: ~a~%" (run-validity run)))
             (t

@@ -30,12 +30,24 @@
   (format stream "    finally ~a~%"
           (state-text (ec:state-fluents (symbolic:trace-final-state trace)))))
 
-(defun describe-sample (domain sample stream &optional targeted-p)
-  "Targeted samples have numbers of their own."
-  (format stream "  initial state of the simulation~@[ (~a)~]~%"
-          (and (sample-index sample)
-               (format nil "~:[~;targeted ~]sample ~d" targeted-p (sample-index sample))))
-  (let ((poses (sample-poses (domain-scene domain) sample)))
+(defun region-seen (domain state body)
+  "Return the first region of DOMAIN in which BODY was seen in STATE, or NIL."
+  (loop for placement in (placements domain)
+        for region = (and (eq (placement-body placement) body)
+                          (find-if (lambda (region)
+                                     (cdr (assoc (placement-atom placement region) state
+                                                 :test #'equal)))
+                                   (placement-regions placement)))
+        when region return region))
+
+(defun describe-sample (domain run stream &optional targeted-p)
+  "Tell the sample that RUN began with, and where its bodies were seen when the world had settled: at
+a border that need not be the region of the pose that was drawn.  Targeted samples have numbers of
+their own."
+  (let ((sample (run-sample run)))
+    (format stream "  initial state of the simulation~@[ (~a)~]~%"
+            (and (sample-index sample)
+                 (format nil "~:[~;targeted ~]sample ~d" targeted-p (sample-index sample))))
     (loop for parameter in (sample-parameters sample)
           for value across (sample-values sample)
           unless (fixed-p parameter)
@@ -44,9 +56,9 @@
     (loop for body in (remove-duplicates
                        (remove-if-not #'keywordp (mapcar #'parameter-body
                                                          (sample-parameters sample))))
-          for region = (symbolic:region-of-pose domain (getf poses body))
+          for region = (region-seen domain (run-initial-state run) body)
           do (format stream "    ~a is in ~:[no region~;~:*~a~]~%" (ec:name-text body)
-                     (and region (ec:name-text region))))))
+                     (and region (ec:name-text (region-name region)))))))
 
 (defun describe-divergence (discrepancy stream)
   (let* ((divergence (judgement-divergence (discrepancy-judgement discrepancy)))
@@ -79,7 +91,7 @@ and simulation part, both final states, and how COMMAND replays it."
   (with-output-to-string (stream)
     (describe-trace (discrepancy-trace discrepancy) stream)
     (describe-shrinking discrepancy stream)
-    (describe-sample (discrepancy-domain discrepancy) (discrepancy-sample discrepancy) stream
+    (describe-sample (discrepancy-domain discrepancy) (discrepancy-run discrepancy) stream
                      (eq (discrepancy-origin discrepancy) :targeted))
     (describe-divergence discrepancy stream)
     (format stream "  final state~%    theory:     ~a~%    simulation: ~a~@[ (stopped after step ~
