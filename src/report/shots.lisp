@@ -59,8 +59,8 @@ the base was after each performed designator.  VERDICT is :PASSED, :FAILED or :L
   (make-shot :sample (discrepancy:run-sample (car entry)) :verdict (entry-verdict entry)))
 
 (defun entries-shots (result trace-of execution entries)
-  "Return the shots of ENTRIES, of which the first *SHOT-LIMIT* are run again; TRACE-OF is a function
-of a run."
+  "Return the shots of ENTRIES, of which the first *SHOT-LIMIT* are run again; TRACE-OF is a
+function of a run."
   (loop for entry in entries
         for count from 0
         collect (if (< count *shot-limit*)
@@ -73,8 +73,8 @@ of a run."
                  (discrepancy:trace-result-runs trace-result)))
 
 (defun discrepancy-shots (result discrepancy)
-  "Return the shots for the map of DISCREPANCY, which is in RESULT: its own first, then those of other
-samples from the same discrete state."
+  "Return the shots for the map of DISCREPANCY, which is in RESULT: its own first, then those of
+other samples from the same discrete state."
   (let* ((run (discrepancy:discrepancy-run discrepancy))
          (sample (discrepancy:discrepancy-sample discrepancy))
          (trace (discrepancy:discrepancy-trace discrepancy))

@@ -23,8 +23,8 @@ inside of Z3's checks."
   "The METER that counts simulations, or NIL.")
 
 (defmacro with-meter ((meter) &body body)
-  "Evaluate BODY and let METER count its simulations and the time of its checks, but for what another
-meter counts."
+  "Evaluate BODY and let METER count its simulations and the time of its checks, but for what
+another meter counts."
   `(let ((*meter* ,meter) (z3:*on-check* #'count-check))
      ,@body))
 

@@ -163,8 +163,8 @@ are none."
           (t (placement-parameters (car (first held)) (cdr (first held)))))))
 
 (defun joint-parameter (scene joint min max)
-  "Return the PARAMETER of JOINT of SCENE, a name, between MIN and MAX as far as it goes: a range may
-go beyond its limits, for what is observed there."
+  "Return the PARAMETER of JOINT of SCENE, a name, between MIN and MAX as far as it goes: a range
+may go beyond its limits, for what is observed there."
   (multiple-value-bind (lower upper) (projection:scene-joint-limits scene joint)
     (flet ((within-limits (value)
              (max (or lower value) (min (or upper value) value))))

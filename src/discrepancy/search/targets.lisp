@@ -5,8 +5,8 @@
 ;;;; samples of the earlier rounds, predicts a final parameter nearest to its bounds or beyond.
 ;;;; The several targets of a round take the worst predictions in turn, and lie between the corner
 ;;;; and a random point, so that no two are the same.  How many samples are blind, and where these
-;;;; are, does not depend on any result.  Each start of a trace (starts.lisp) has a regression of its
-;;;; own.
+;;;; are, does not depend on any result.  Each start of a trace (starts.lisp) has a regression of
+;;;; its own.
 
 (in-package #:discrepancy-finder.discrepancy)
 

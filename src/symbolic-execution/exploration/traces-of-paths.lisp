@@ -6,8 +6,8 @@
 ;;;;                     later is not asked for
 ;;;;   :FIRST-INSTANCE   only the shortest of them on each path
 ;;;;   :EVERY-STATE      as :LAST, from every initial state, the least first
-;;;; A path may go on to a failure, or to where the theory allows nothing.  What the path leaves open
-;;;; of the initial state may be asked for, too: a trace has ALTERNATIVES then.  Entry point:
+;;;; A path may go on to a failure, or to where the theory allows nothing.  What the path leaves
+;;;; open of the initial state may be asked for, too: a trace has ALTERNATIVES then.  Entry point:
 ;;;; PATH-TRACES.
 
 (in-package #:discrepancy-finder.symbolic-execution)
