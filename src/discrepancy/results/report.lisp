@@ -41,9 +41,9 @@
         when region return region))
 
 (defun describe-sample (domain run stream &optional targeted-p)
-  "Tell the sample that RUN began with, and where its bodies were seen when the world had settled: at
-a border that need not be the region of the pose that was drawn.  Targeted samples have numbers of
-their own."
+  "Tell the sample that RUN began with, and where its bodies were seen when the world had settled:
+at a border that need not be the region of the pose that was drawn.  Targeted samples have numbers
+of their own."
   (let ((sample (run-sample run)))
     (format stream "  initial state of the simulation~@[ (~a)~]~%"
             (and (sample-index sample)

@@ -51,9 +51,9 @@ formula if that is NIL; or NIL if it speaks of more than fluents and timeless at
     (form formula)))
 
 (defun effect-conditions (ground predicate event fluent)
-  "Return a list of (name . formula): the axioms of GROUND by which the ground EVENT has an effect by
-PREDICATE (:initiates, :terminates or :releases) on the ground FLUENT, and under which condition, a
-state formula; that is NIL where it speaks of more than fluents and timeless atoms."
+  "Return a list of (name . formula): the axioms of GROUND by which the ground EVENT has an effect
+by PREDICATE (:initiates, :terminates or :releases) on the ground FLUENT, and under which condition,
+a state formula; that is NIL where it speaks of more than fluents and timeless atoms."
   (loop for effect in (effects-of ground predicate (find-event ground event)
                                   (find-fluent ground fluent))
         collect (cons (axiom-name (effect-axiom effect))
