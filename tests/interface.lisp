@@ -68,7 +68,7 @@ line that contains PARTS."
   (complains ("find" "move-the-box" "--domain" "two-regions" "--set" "reech=1") "reech")
   (complains ("find" "move-the-box" "--domain" "two-regions" "--rule" "magic") "magic")
   (complains ("find" "move-the-box" "--domain" "two-regions" "--delta" "0.1")
-             "delta is 0.1, but the rule paper takes no delta.")
+             "The rule paper takes no delta.")
   (complains ("find" "move-the-box" "--domain" "two-regions" "--traces" "all")
              "traces" "every-state")
   (complains ("find" "move-the-box" "--domain" "two-regions" "--frob" "1") "--frob")

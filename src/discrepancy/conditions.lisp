@@ -53,11 +53,11 @@ of another search."))
    (expected :initarg :expected :reader invalid-argument-expected
              :documentation "What was expected, as a string.")
    (reason :initarg :reason :initform nil
-           :documentation "What is wrong, as a clause, where that is plainer; or NIL."))
+           :documentation "What is wrong, as a clause in lower case, where that is plainer; or NIL."))
   (:report (lambda (condition stream)
              (with-slots (name value expected reason) condition
                (if reason
-                   (format stream "~(~a~) is ~s, but ~a." name value reason)
+                   (format stream "~@(~a~)." reason)
                    (format stream "~(~a~) is ~s where ~a was expected." name value expected)))))
   (:documentation "Signaled when a search is asked for with an impossible argument."))
 

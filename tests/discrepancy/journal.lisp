@@ -68,7 +68,7 @@
                    (is (= count (length (discrepancy:result-discrepancies whole))))))))))
 
 (test what-is-found-by-a-resumed-search-is-explained
-  ;; Edits are checked against runs whose designators are texts, and forbid what some of them did.
+  ;; Edits are checked against runs that were read back, and forbid what some of them did.
   (with-journal-file (file)
     (flet ((explained ()
              (discrepancy:explanation-text
@@ -153,3 +153,31 @@
       (with-open-file (stream file :direction :output :if-exists :supersede)
         (format stream "~{~a~%~}" lines))
       (is (equal whole (outline (find-in-example 0.8 :resume file)))))))
+
+(test designators-are-read-back
+  (with-journal-file (file)
+    (labels ((steps (result)
+               (loop for trace in (discrepancy:result-traces result)
+                     append (loop for (run) in (discrepancy:trace-result-runs trace)
+                                  append (discrepancy:run-steps run))))
+             (outcomes (step)
+               (mapcar #'discrepancy::outcome-key
+                       (symbolic:action-outcomes (two-regions)
+                                                 (discrepancy:run-step-designator step))))
+             (rewrite (old new)
+               (let ((text (uiop:frob-substrings (uiop:read-file-string file) (list old) new)))
+                 (with-open-file (stream file :direction :output :if-exists :supersede)
+                   (write-string text stream)))))
+      (let ((live (steps (find-in-example 0.8 :resume file)))
+            (read-back (steps (find-in-example 0.8 :resume file))))
+        (is (notany #'discrepancy::read-back-p read-back))
+        (is (equal (mapcar #'outcomes live) (mapcar #'outcomes read-back)))
+        (is (equal (mapcar #'princ-to-string live) (mapcar #'princ-to-string read-back))))
+      (rewrite "\"picking-up\"" "\"placing\"")
+      (is (equal '(nil t nil nil)
+                 (mapcar #'discrepancy::read-back-p
+                         (subseq (steps (find-in-example 0.8 :resume file)) 0 4)))
+          "a description that does not fit what was seen is not believed")
+      (rewrite "\"description\":" "\"remark\":")
+      (is (every #'discrepancy::read-back-p (steps (find-in-example 0.8 :resume file)))
+          "a journal need not have descriptions"))))

@@ -37,8 +37,10 @@ words, STATE what was observed afterwards."
 
 (defstruct (run (:copier nil))
   "A concrete execution.  VALIDITY is :VALID or a sentence that says why the sample is not; ENDING
-is :TRACE-DONE, :LEFT-TRACE, :FINISHED, :TOO-MANY-STEPS or the class of an unhandled failure."
+is :TRACE-DONE, :LEFT-TRACE, :FINISHED, :TOO-MANY-STEPS or the class of an unhandled failure.
+JOURNALED-P is true if it was read from a journal."
   (sample nil :read-only t)
+  (journaled-p nil :type boolean :read-only t)
   (validity :valid :read-only t)
   (ending nil :read-only t)
   (initial-state '() :type list :read-only t)

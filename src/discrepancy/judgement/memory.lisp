@@ -11,7 +11,7 @@
   (ec:make-term-table))
 
 (defun read-back-p (step)
-  "Return true if STEP was read from a journal, where a designator is a text."
+  "Return true if nothing but the text is known of the designator of STEP, read from a journal."
   (stringp (run-step-designator step)))
 
 (defun outcome-key (outcome)

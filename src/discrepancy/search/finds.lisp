@@ -24,7 +24,7 @@ the journal is replaced by the second one, also among those of the search."
                            (discrepancy-trace discrepancy))))
         (run (discrepancy-run discrepancy)))
     (setf (discrepancy-confirmed-p discrepancy) (= (run-hash run) (run-hash again)))
-    (when (and (discrepancy-confirmed-p discrepancy) (journaled-p run))
+    (when (and (discrepancy-confirmed-p discrepancy) (run-journaled-p run))
       (setf (discrepancy-run discrepancy) again
             (discrepancy-runs discrepancy)
             (loop for (own . judgement) in (discrepancy-runs discrepancy)

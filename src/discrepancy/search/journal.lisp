@@ -4,8 +4,10 @@
 ;;;; search with another plan, domain or other options, budgets apart, is refused.  Each further
 ;;;; line is the run of a sample, under the key (hash of the trace, origin, index), written when the
 ;;;; run is over.  A search that is resumed takes these runs for its own, and so comes to the result
-;;;; that it would have had without the interruption.  Designators are stored as text; a discrepancy
-;;;; that is taken from the journal is confirmed by a run of its own, which has them in full.
+;;;; that it would have had without the interruption.  Designators are stored as text and,
+;;;; where that can be written, as a description, of which a new one is made; where that would mean
+;;;; something else, the text is all that is known.  A discrepancy that is taken from the journal is
+;;;; confirmed by a run of its own, which has them in full.
 
 (in-package #:discrepancy-finder.discrepancy)
 
@@ -42,20 +44,44 @@ number), by their keys.  ATOMS are those of the observed fluents, in their order
      :event (and (stringp event) (ec:text-atom event (ec:ground-theory-events ground)))
      :condition (formula-from-text (json:get-key object "condition")))))
 
+(defun designator-json (designator)
+  (handler-case (description-json (described designator))
+    (unwritable-action () :null)))
+
+(declaim (ftype function outcomes-like))   ; edits/examples.lisp
+
+(defun designator-from-json (object text domain outcome candidates)
+  "Return the designator that OBJECT describes, or its TEXT if none can be made, or one that cannot
+have the CANDIDATES in DOMAIN where OUTCOME was seen."
+  (handler-case
+      (let ((designator (designator-of (description-from-json object) '())))
+        (if (equal (mapcar #'outcome-key candidates)
+                   (mapcar #'outcome-key
+                           (outcomes-like (symbolic:action-outcomes domain designator) outcome)))
+            designator
+            text))
+    (error () text)))
+
 (defun run-step-json (step)
   (json:object "designator" (princ-to-string (run-step-designator step))
+               "description" (designator-json (run-step-designator step))
                "outcome" (symbolic:argument-to-json (run-step-outcome step))
                "candidates" (map 'vector #'candidate-json (run-step-candidates step))
                "failure" (json-or-null (run-step-failure step))
                "state" (state-bits (run-step-state step))))
 
-(defun run-step-from-json (object ground atoms)
-  (let ((failure (json:get-key object "failure")))
+(defun run-step-from-json (object domain atoms)
+  (let* ((ground (symbolic:action-theory-ground domain))
+         (failure (json:get-key object "failure"))
+         (outcome (symbolic:argument-from-json (json:get-key object "outcome")))
+         (candidates (map 'list (lambda (candidate) (candidate-from-json candidate ground))
+                          (json:get-key object "candidates"))))
     (make-run-step
-     :designator (json:get-key object "designator")
-     :outcome (symbolic:argument-from-json (json:get-key object "outcome"))
-     :candidates (map 'list (lambda (candidate) (candidate-from-json candidate ground))
-                      (json:get-key object "candidates"))
+     :designator (designator-from-json (json:get-key object "description" :null)
+                                       (json:get-key object "designator")
+                                       domain outcome candidates)
+     :outcome outcome
+     :candidates candidates
      :failure (and (stringp failure) failure)
      :state (state-from-bits (json:get-key object "state") atoms))))
 
@@ -72,14 +98,14 @@ number), by their keys.  ATOMS are those of the observed fluents, in their order
                "hash" (hash-text (run-hash run))
                "seconds" (run-seconds run)))
 
-(defun run-from-json (object sample ground atoms)
-  "Return the run of SAMPLE that OBJECT tells; ATOMS are the observed ones of the theory GROUND."
+(defun run-from-json (object sample domain atoms)
+  "Return the run of SAMPLE that OBJECT tells; ATOMS are the observed ones of DOMAIN."
   (let ((validity (json:get-key object "validity")))
-    (make-run :sample sample
+    (make-run :sample sample :journaled-p t
               :validity (if (eq validity :true) :valid validity)
               :ending (symbolic:argument-from-json (json:get-key object "ending"))
               :initial-state (state-from-bits (json:get-key object "initial") atoms)
-              :steps (map 'list (lambda (step) (run-step-from-json step ground atoms))
+              :steps (map 'list (lambda (step) (run-step-from-json step domain atoms))
                           (json:get-key object "steps"))
               :final-state (state-from-bits (json:get-key object "final") atoms)
               :final-values (coerce (json:get-key object "values")
@@ -117,10 +143,6 @@ number), by their keys.  ATOMS are those of the observed fluents, in their order
                          :test #'string-equal)
           :divergence (and (consp divergence) (divergence-from-json divergence ground))))))
 
-(defun journaled-p (run)
-  "Return true if RUN was read from a journal."
-  (some (lambda (step) (stringp (run-step-designator step))) (run-steps run)))
-
 ;;; Lines
 
 (defun line-key (draw)
@@ -136,13 +158,14 @@ number), by their keys.  ATOMS are those of the observed fluents, in their order
                                               "." (source:condition-sentence condition))))))
 
 (defun run-of-line (line search draw)
-  "Return the run of DRAW and the judgement on it (NIL for none) that LINE, of the journal of SEARCH,
-tells."
+  "Return the run of DRAW and the judgement on it (NIL for none) that LINE tells, of the journal of
+SEARCH."
   (let ((object (json:parse line))
-        (ground (symbolic:action-theory-ground (search-domain search))))
-    (values (run-from-json (json:get-key object "run") (drawn-sample draw) ground
+        (domain (search-domain search)))
+    (values (run-from-json (json:get-key object "run") (drawn-sample draw) domain
                            (journal-atoms (search-journal search)))
-            (judgement-from-json (json:get-key object "judgement") ground
+            (judgement-from-json (json:get-key object "judgement")
+                                 (symbolic:action-theory-ground domain)
                                  (search-comparison search)))))
 
 (defun journaled-run (search draw)

@@ -161,8 +161,8 @@ SEARCH-FUNCTION returns where it has to end."
     (if (symbolp constraint) constraint (ec:state-constraint-name constraint))))
 
 (defun check-argument (name value test expected &optional reason)
-  "Signal INVALID-ARGUMENT unless TEST is true.  Its report is what was EXPECTED, or REASON, a
-clause, if there is one."
+  "Signal INVALID-ARGUMENT unless TEST is true.  Its report is what was EXPECTED, or, where there is
+one, the clause REASON."
   (unless test
     (error 'invalid-argument :name name :value value :expected expected :reason reason)))
 
