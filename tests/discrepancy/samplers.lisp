@@ -55,6 +55,16 @@ in each of 16 x 16 cells."
   (is (= (ash #b111 29) (discrepancy::sobol-integer 7 0)))
   (is (= (logxor (ash 1 31) (ash #b11 30) (ash #b101 29)) (discrepancy::sobol-integer 7 1))))
 
+(test no-sample-lies-on-an-upper-bound
+  "One plus the largest double below one is two, which is in no region."
+  (let ((parameters (discrepancy:initial-parameters (two-regions) (example-trace))))
+    (dotimes (index 32)
+      (loop for value across (discrepancy:sample-values
+                              (discrepancy:draw-sample parameters 1 1 index :sampler :corners))
+            for parameter in parameters
+            do (is (<= (discrepancy:parameter-min parameter) value))
+               (is (< value (discrepancy:parameter-max parameter)))))))
+
 (test corners-come-first
   (let ((points (unit-points :corners 12 3)))
     (is (= 8 (length (remove-duplicates (subseq points 0 8) :test #'equal))))

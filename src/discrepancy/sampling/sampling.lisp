@@ -259,12 +259,19 @@ also if a rule predicts nothing, and INTERVALS is empty."
 (defconstant +attempts+ 10000
   "A body is tried in so many places of the box around its region before it counts as nowhere.")
 
+(defun below-bound (value min max)
+  "Return VALUE, a number from MIN to MAX, or, since the upper bound belongs to the next region, one
+just below MAX for that; MIN if the two are equal."
+  (if (< value max)
+      value
+      (- max (* (- max min) (scale-float 1d0 -50)))))
+
 (defun values-at (parameters units)
   "Return the values of PARAMETERS at UNITS, a list of numbers from 0 to 1."
   (loop for parameter in parameters
         for unit in units
-        collect (+ (parameter-min parameter)
-                   (* unit (- (parameter-max parameter) (parameter-min parameter))))))
+        for min = (parameter-min parameter) and max = (parameter-max parameter)
+        collect (below-bound (+ min (* unit (- max min))) min max)))
 
 (defun redrawn-values (parameters seed content index attempt)
   "Return the values of PARAMETERS at a later ATTEMPT to draw sample INDEX."

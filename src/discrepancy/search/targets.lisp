@@ -69,9 +69,7 @@ it; the upper ends of BOUNDS are not reached."
         for end across corner
         for (min . max) across bounds
         for mixed = (+ value (* part (- end value)))
-        collect (max min (if (< mixed max)
-                             mixed
-                             (- max (* (- max min) (scale-float 1d0 -50)))))))
+        collect (max min (below-bound mixed min max))))
 
 (defun with-drawn-values (parameters values)
   "Return the list of the values of PARAMETERS of which those that are not fixed have VALUES."
