@@ -53,7 +53,7 @@ of another search."))
    (expected :initarg :expected :reader invalid-argument-expected
              :documentation "What was expected, as a string.")
    (reason :initarg :reason :initform nil
-           :documentation "What is wrong, as a clause in lower case, where that is plainer; or NIL."))
+           :documentation "A clause in lower case that says more plainly what is wrong, or NIL."))
   (:report (lambda (condition stream)
              (with-slots (name value expected reason) condition
                (if reason
