@@ -60,15 +60,15 @@ have none, because they cannot be sampled.  Signals SAMPLING-ERROR if that is so
   (make-parameter-region (parameter-bounds (remove-if #'fixed-p (start-parameters start)))
                          (final-bounds (start-outputs start) (start-resting start))))
 
-(defparameter *start-draw* #x100000
-  "The number of the draw that tells which start a sample is of; those before are for coordinates.")
+(defconstant +start-draw+ #xd0000000
+  "The number of the draw that tells which start a sample is of; those for coordinates are less.")
 
 (defun pick-start (starts seed content index)
   "Return the one of STARTS that sample INDEX is of."
   (if (= 1 (length starts))
       (svref starts 0)
       (svref starts (floor (* (length starts)
-                              (unit-float seed content index *start-draw*))))))
+                              (unit-float seed content index +start-draw+))))))
 
 (defparameter *start-rejection-limit* 50
   "So many rejected samples without a valid one mean that an initial state is not met.")
