@@ -27,10 +27,14 @@ IN is the list of the numbers of those that are not left out."
       (incf (evidence-blind evidence))
       (incf (evidence-targeted evidence)))
   (add-sample (svref (mixed-evidence-parts evidence) part) sample)
+  ;; A part that was left out is met after all.
+  (unless (member part (mixed-evidence-in evidence))
+    (setf (mixed-evidence-in evidence) (sort (cons part (mixed-evidence-in evidence)) #'<)))
   evidence)
 
 (defun leave-out-part (evidence part)
-  "Let the part with the number PART, from which no sample is valid, have no say in EVIDENCE."
+  "Let the part with the number PART, from which no sample is valid so far, have no say in EVIDENCE
+until there is one."
   (setf (mixed-evidence-in evidence) (remove part (mixed-evidence-in evidence))))
 
 (defgeneric rule-for-part (rule count)
